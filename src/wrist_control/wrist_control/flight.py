@@ -1,0 +1,162 @@
+"""Fly a maneuver with the resolver step alone, as fast as it goes: no ROS, no clock."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.maneuvers import Maneuver, make_maneuver
+from wrist_control.resolving import State, Step, start, step
+from wrist_control.rotations import to_forearm
+from wrist_control.wrists import Wrist, make_wrist
+
+# [Barker1986]: a 6-in. probe along the hand's x axis.
+PROBE = (6.0 * 0.0254, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A flight as arrays over time; n rows, one at each step's start and one at the end.
+
+    What a row says of rates, scale factor and limits holds from its time to the next row's.
+
+    Attributes:
+        wrist: The mechanism that flew.
+        maneuver: What it was asked to do.
+        time: s, shape (n,).
+        command: Commanded p, q, r, rad/s, shape (n, 3); twists (n, 6) for a wrist that takes them.
+        achieved: The twist really made, (vx, vy, vz, p, q, r) in hand axes, shape (n, 6).
+        joint_positions: rad or m, shape (n, joints).
+        joint_rates: The real increments over each step, rad/s or m/s, shape (n, joints).
+        hand_rotation: C, forearm axes to hand axes, shape (n, 3, 3).
+        hand_position: Origin of the hand in forearm axes, m, shape (n, 3).
+        tip: End of the probe in forearm axes, m, shape (n, 3).
+        scale_factor: F, shape (n,).
+        time_lost: Integral of 1 − F up to each row, s, shape (n,).
+        margin: How far from singular, shape (n,).
+        limited: Names of the joints and limits at work, n tuples.
+        completed: False when the hand could not finish what the maneuver asked for.
+    """
+
+    wrist: Wrist
+    maneuver: Maneuver
+    time: np.ndarray
+    command: np.ndarray
+    achieved: np.ndarray
+    joint_positions: np.ndarray
+    joint_rates: np.ndarray
+    hand_rotation: np.ndarray
+    hand_position: np.ndarray
+    tip: np.ndarray
+    scale_factor: np.ndarray
+    time_lost: np.ndarray
+    margin: np.ndarray
+    limited: tuple[tuple[str, ...], ...]
+    completed: bool
+
+
+def fly(
+    wrist: Wrist | str,
+    maneuver: Maneuver | str = 'basic_test',
+    rate: float = 32.0,
+    joint_rate_limits: float | Sequence[float] | None = None,
+    *,
+    initial_positions: Sequence[float] | None = None,
+    probe: tuple[float, float, float] = PROBE,
+    patience: float = 30.0,
+    progress: Callable[[float], object] | None = None,
+    **dimensions: Any,
+) -> Flight:
+    """Fly a maneuver and return what happened.
+
+    Args:
+        wrist: A wrist, or the name of one.
+        maneuver: A maneuver, or the name of one at Barker's 32 deg/s.
+        rate: Steps per second.
+        joint_rate_limits: rad/s or m/s, one for all joints or one for each; the wrist's own
+            when not given, which are none unless it was made with some.
+        initial_positions: Where the joints start, rad or m; the wrist's home when not given.
+        probe: End of the probe in hand axes, m.
+        patience: Seconds the hand may lose in all before the flight is given up.
+        progress: Called after each step with the share of the maneuver that is done.
+        dimensions: Parameters of the wrist, when it is given by name.
+
+    Raises:
+        InvalidValueError: A value that cannot be used.
+    """
+    if isinstance(wrist, str):
+        wrist = make_wrist(wrist, **dimensions)
+    elif dimensions:
+        raise InvalidValueError(
+            f'{", ".join(dimensions)} can only be given with the name of a wrist.'
+        )
+    if isinstance(maneuver, str):
+        maneuver = make_maneuver(maneuver)
+    if not (math.isfinite(rate) and rate > 0.0):
+        raise InvalidValueError(f'rate is {rate}; it must be finite and above 0 steps/s.')
+    wrist = wrist.with_limits(rates=joint_rate_limits)
+    rows, completed = _rows(
+        wrist, maneuver, start(wrist, initial_positions), 1.0 / rate, patience, progress
+    )
+    return _flight(wrist, maneuver, 1.0 / rate, rows, probe, completed)
+
+
+Row = tuple[State, tuple[float, ...], Step]
+
+
+def _rows(
+    wrist: Wrist,
+    maneuver: Maneuver,
+    state: State,
+    dt: float,
+    patience: float,
+    progress: Callable[[float], object] | None,
+) -> tuple[list[Row], bool]:
+    rows: list[Row] = []
+    linear = (0.0,) * (wrist.twist_size - 3)
+    while state.time_lost <= patience:
+        time = len(rows) * dt - (state.time_lost if maneuver.waits else 0.0)
+        command = (*linear, *maneuver.rates(time, dt))
+        made = step(wrist, state, command, dt)
+        rows.append((state, command, made))
+        if time >= maneuver.duration - 1e-9:
+            return rows, True
+        state = made.state
+        if progress is not None:
+            progress(min(1.0, time / maneuver.duration))
+    return rows, False
+
+
+def _flight(
+    wrist: Wrist,
+    maneuver: Maneuver,
+    dt: float,
+    rows: list[Row],
+    probe: tuple[float, float, float],
+    completed: bool,
+) -> Flight:
+    states = [state for state, _, _ in rows]
+    steps = [made for _, _, made in rows]
+    position = np.array([state.pose.position for state in states])
+    return Flight(
+        wrist=wrist,
+        maneuver=maneuver,
+        time=dt * np.arange(len(rows)),
+        command=np.array([command for _, command, _ in rows]),
+        achieved=np.array([made.achieved for made in steps]),
+        joint_positions=np.array([state.positions for state in states]),
+        joint_rates=np.array([made.joint_rates for made in steps]),
+        hand_rotation=np.array([state.pose.rotation for state in states]),
+        hand_position=position,
+        tip=position + np.array([to_forearm(state.pose.quaternion, probe) for state in states]),
+        scale_factor=np.array([made.scale_factor for made in steps]),
+        time_lost=np.array([state.time_lost for state in states]),
+        margin=np.array([made.margin for made in steps]),
+        limited=tuple(tuple(limit.joint for limit in made.limits) for made in steps),
+        completed=completed,
+    )

@@ -1,0 +1,139 @@
+"""What the operator asks of the hand: rates p, q, r as functions of time."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.rotations import Vector
+
+# [Barker1986], basic test maneuver: 1° for each step of 1/32 s.
+BARKER_SPEED = math.radians(32.0)
+QUARTER_TURN = 0.5 * math.pi
+# Times closer than this are the same, s: round-off in a sum of steps must not add a step.
+EARLY = 1e-9
+STILL: Vector = (0.0, 0.0, 0.0)
+
+
+class Segment(NamedTuple):
+    """Constant hand rates p, q, r, rad/s, for a time, s."""
+
+    rates: Vector
+    duration: float
+
+
+@dataclass(frozen=True)
+class Maneuver:
+    """Segments flown one after the other.
+
+    Attributes:
+        name: What it is called by.
+        segments: The parts, in order.
+        waits: The operator watches the hand and holds each command until the hand has done it,
+            so the maneuver's clock stands still while time is being lost.
+    """
+
+    name: str
+    segments: tuple[Segment, ...]
+    waits: bool = True
+
+    @property
+    def duration(self) -> float:
+        """Time without any loss, s."""
+        return sum(segment.duration for segment in self.segments)
+
+    def rates(self, time: float, dt: float) -> Vector:
+        """Return p, q, r to hold from a time on, rad/s; zero before and after the maneuver.
+
+        The mean over the holding time is returned, so that a segment that ends within it is
+        not overshot.
+
+        Args:
+            time: s since the start.
+            dt: How long the command will be held, s.
+        """
+        shares = []
+        begin = -time
+        for segment in self.segments:
+            end = begin + segment.duration
+            shares.append(_share(begin, end, dt))
+            begin = end
+        mean = [
+            sum(share * segment.rates[axis] for share, segment in zip(shares, self.segments, strict=True))
+            for axis in range(3)
+        ]
+        return (mean[0], mean[1], mean[2])
+
+
+def _share(begin: float, end: float, dt: float) -> float:
+    """Return the share of 0 to dt that lies between two times, without round-off's crumbs."""
+    shared = min(end, dt) - max(begin, 0.0)
+    if shared > dt - EARLY:
+        return 1.0
+    return shared / dt if shared > EARLY else 0.0
+
+
+def turn(axis: int, angle: float, speed: float) -> Segment:
+    """Return a turn about one hand axis (0, 1, 2 for x, y, z) at constant speed."""
+    rates = [0.0, 0.0, 0.0]
+    rates[axis] = math.copysign(speed, angle)
+    return Segment((rates[0], rates[1], rates[2]), abs(angle) / speed)
+
+
+def basic_test(speed: float) -> Maneuver:
+    """Pitch until the probe is vertical, then yaw until it points along y. [Barker1986]."""
+    return Maneuver('basic_test', (turn(1, QUARTER_TURN, speed), turn(2, QUARTER_TURN, speed)))
+
+
+def extended_test(speed: float) -> Maneuver:
+    """Pitch until the probe is vertical, then yaw on for a whole turn. [Barker1986], fig. 10.
+
+    The paper does not print where its figure ends; a whole turn shows the limit cycle.
+    """
+    return Maneuver('extended_test', (turn(1, QUARTER_TURN, speed), turn(2, math.tau, speed)))
+
+
+def hold(speed: float) -> Maneuver:
+    """Ask for nothing for two seconds."""
+    return Maneuver('hold', (Segment(STILL, 2.0),))
+
+
+def stick(speed: float, seed: int = 1, duration: float = 60.0) -> Maneuver:
+    """Return a pseudo-random stick: a new direction every half second, at most at `speed`.
+
+    The operator does not wait for the hand, as a person exploring does not.
+    """
+    chance = random.Random(seed)
+    segments = []
+    for _ in range(round(duration / 0.5)):
+        x, y, z = (chance.gauss(0.0, 1.0) for _ in range(3))
+        scale = speed * chance.random() / math.sqrt(x * x + y * y + z * z)
+        segments.append(Segment((scale * x, scale * y, scale * z), 0.5))
+    return Maneuver('stick', tuple(segments), waits=False)
+
+
+MANEUVERS: dict[str, Callable[[float], Maneuver]] = {
+    'basic_test': basic_test,
+    'extended_test': extended_test,
+    'hold': hold,
+    'stick': stick,
+}
+
+
+def make_maneuver(name: str, speed: float = BARKER_SPEED) -> Maneuver:
+    """Return a maneuver by name, flown at a hand speed in rad/s.
+
+    Raises:
+        InvalidValueError: No maneuver of that name, or a speed that is not finite and above 0.
+    """
+    if name not in MANEUVERS:
+        raise InvalidValueError(
+            f'There is no maneuver {name!r}; the maneuvers are {", ".join(MANEUVERS)}.'
+        )
+    if not (math.isfinite(speed) and speed > 0.0):
+        raise InvalidValueError(f'speed is {speed}; it must be finite and above 0 rad/s.')
+    return MANEUVERS[name](speed)

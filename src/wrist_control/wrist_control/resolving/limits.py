@@ -1,0 +1,97 @@
+"""Which limits a step would overrun, and by how much it must shrink to keep them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from enum import IntEnum
+from typing import NamedTuple
+
+from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist
+
+# A limit counts as kept within this, rad or m (relative for rates): round-off, not motion.
+TOLERANCE = 1e-9
+
+
+class LimitKind(IntEnum):
+    """What kind of limit is at work; the values are those of the LimitAtWork message."""
+
+    RATE = 0
+    POSITION = 1
+    WORKSPACE = 2
+    SINGULARITY = 3
+
+
+class LimitAtWork(NamedTuple):
+    """One limit that holds the hand back.
+
+    Attributes:
+        joint: Name of the joint, or of the clearance for a limit of the whole wrist.
+        kind: Which kind of limit.
+        asked: What the command asked for: a rate, a position, or the room left.
+        allowed: What the limit allows of the same.
+        share: The share of the step, 0 to 1, that keeps this limit.
+    """
+
+    joint: str
+    kind: LimitKind
+    asked: float
+    allowed: float
+    share: float
+
+
+def rate_overruns(joints: Sequence[Joint], rates: Positions) -> list[LimitAtWork]:
+    """Return the joints that would have to move faster than they may."""
+    return [
+        LimitAtWork(
+            joint.name, LimitKind.RATE, rate, math.copysign(limit, rate), limit / abs(rate)
+        )
+        for joint, rate in zip(joints, rates, strict=True)
+        if abs(rate) > (limit := joint.rate_limit) * (1.0 + TOLERANCE)
+    ]
+
+
+def position_overruns(
+    joints: Sequence[Joint], before: Positions, after: Positions
+) -> list[LimitAtWork]:
+    """Return the joints that would leave their range, or go further outside it."""
+    found = []
+    for joint, old, new in zip(joints, before, after, strict=True):
+        if joint.lower - TOLERANCE <= new <= joint.upper + TOLERANCE:
+            continue
+        bound = max(joint.upper, old) if new > old else min(joint.lower, old)
+        if abs(new - old) > abs(bound - old) + TOLERANCE:
+            share = (bound - old) / (new - old)
+            found.append(LimitAtWork(joint.name, LimitKind.POSITION, new, bound, share))
+    return found
+
+
+def clearance_overruns(
+    before: Sequence[Clearance], after: Sequence[Clearance], dt: float
+) -> list[LimitAtWork]:
+    """Return the limits of the whole wrist that would be crossed, or approached too fast."""
+    found = []
+    for old, new in zip(before, after, strict=True):
+        room = max(old.room, 0.0)
+        kept = room * max(0.0, 1.0 - dt / old.horizon) if old.horizon > 0.0 else 0.0
+        bound = min(kept, old.room)
+        if new.room < bound - TOLERANCE and new.room < old.room:
+            share = (old.room - bound) / (old.room - new.room)
+            found.append(LimitAtWork(old.name, LimitKind.WORKSPACE, new.room, bound, share))
+    return found
+
+
+def overruns(wrist: Wrist, before: Positions, after: Positions, dt: float) -> list[LimitAtWork]:
+    """Return every limit that a step from one set of joint positions to another would overrun."""
+    rates = tuple((new - old) / dt for old, new in zip(before, after, strict=True))
+    found = rate_overruns(wrist.joints, rates)
+    found += position_overruns(wrist.joints, before, after)
+    clearances = wrist.clearances(after)
+    if clearances:
+        found += clearance_overruns(wrist.clearances(before), clearances, dt)
+    return found
+
+
+def smallest_share(limits: Sequence[LimitAtWork]) -> float:
+    """Return the share of a step that keeps all of these limits, 1 when there are none."""
+    return min((limit.share for limit in limits), default=1.0)

@@ -1,0 +1,44 @@
+"""The mechanisms: pure kinematics, one file each, behind one interface."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.wrists.registry import WRISTS
+from wrist_control.wrists.wrist import Clearance, Joint, Wrist
+
+__all__ = ['WRISTS', 'Clearance', 'Joint', 'Wrist', 'make_wrist', 'wrist_class']
+
+
+def wrist_class(name: str) -> type[Wrist]:
+    """Return the class of a wrist by its registered name.
+
+    Raises:
+        InvalidValueError: No wrist of that name.
+    """
+    if name not in WRISTS:
+        raise InvalidValueError(f'There is no wrist {name!r}; the wrists are {", ".join(WRISTS)}.')
+    found: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), WRISTS[name])
+    return found
+
+
+def make_wrist(name: str, **dimensions: Any) -> Wrist:
+    """Return a wrist by its registered name.
+
+    Args:
+        name: One of `WRISTS`.
+        dimensions: The mechanism's own parameters, SI units.
+
+    Raises:
+        InvalidValueError: No wrist of that name, or a dimension it does not have or accept.
+    """
+    made = wrist_class(name)
+    known = [key for key in made.__dataclass_fields__ if key != 'joints']
+    strange = [key for key in dimensions if key not in known]
+    if strange:
+        raise InvalidValueError(
+            f'{name} has no parameter {", ".join(strange)}; it has {", ".join(known) or "none"}.'
+        )
+    return made(**dimensions)
