@@ -1,0 +1,51 @@
+# Every target sets up what it needs first, and that is quick when nothing has changed.
+# PYTHON=/path/to/python3.12 chooses another Python than the default.
+
+.DEFAULT_GOAL := help
+SHELL := /bin/sh
+export PYTHON
+
+.PHONY: help
+help:  ## show this table
+	@sed -n 's/^\([a-z]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name does; do \
+	  printf '  make %-10s %s\n' "$$name" "$$does"; done
+
+.PHONY: setup
+setup:  ## install ROS 2 Jazzy and the tools into .venv, and build the packages
+	@scripts/setup
+
+.PHONY: test
+test: setup  ## check the code with ruff and mypy, then run every test
+	@lint=0; ./env python3 scripts/lint.py || lint=$$?; \
+	ROS_PYTHON_CHECK_FIELDS=1 ./env python3 -m pytest -n 2 src/wrist_control/test test \
+	  || exit $$?; \
+	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
+	exit $$lint
+
+.PHONY: lint
+lint: setup  ## check the code with ruff and mypy
+	@./env python3 scripts/lint.py
+
+.PHONY: format
+format: setup  ## lay the code out as lint expects it
+	@./env ruff check --fix . && ./env ruff format .
+
+.PHONY: demo
+demo: setup  ## fly Barker's basic test maneuver, with figures in out/
+	@./env python3 -m wrist_control.demo
+
+.PHONY: bench
+bench: setup  ## measure how fast it is, as ratios within one run
+	@for script in bench/bench_*.py; do ./env python3 "$$script" || exit $$?; done
+
+.PHONY: compare
+compare: setup  ## fly every wrist through the same maneuvers and compare them
+	@./env python3 -m wrist_control.compare
+
+.PHONY: dexterity
+dexterity: setup  ## map where each wrist can turn the hand well
+	@./env python3 -m wrist_control.dexterity_study
+
+.PHONY: clean
+clean:  ## remove everything that setup made; figures in out/ stay
+	@rm -rf .venv build install log .setup.lock .mypy_cache .pytest_cache .ruff_cache
