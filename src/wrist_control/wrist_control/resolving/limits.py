@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist
 
-# A limit counts as kept within this, rad or m (relative for rates): round-off, not motion.
+# A limit counts as kept within this, rad or m: round-off, not motion. Relative for rates.
 TOLERANCE = 1e-9
+RATE_TOLERANCE = 1.0 + TOLERANCE
 
 
 class LimitKind(IntEnum):
@@ -43,27 +44,30 @@ class LimitAtWork(NamedTuple):
 def rate_overruns(joints: Sequence[Joint], rates: Positions) -> list[LimitAtWork]:
     """Return the joints that would have to move faster than they may."""
     return [
-        LimitAtWork(
-            joint.name, LimitKind.RATE, rate, math.copysign(limit, rate), limit / abs(rate)
-        )
-        for joint, rate in zip(joints, rates, strict=True)
-        if abs(rate) > (limit := joint.rate_limit) * (1.0 + TOLERANCE)
+        _rate_at_work(name, rate, limit)
+        for (name, _, _, _, limit), rate in zip(joints, rates, strict=True)
+        if abs(rate) > limit * RATE_TOLERANCE
     ]
 
 
-def position_overruns(
-    joints: Sequence[Joint], before: Positions, after: Positions
+def joint_overruns(
+    joints: Sequence[Joint], before: Positions, after: Positions, dt: float
 ) -> list[LimitAtWork]:
-    """Return the joints that would leave their range, or go further outside it."""
+    """Return the joints that would move too fast, leave their range, or go further outside it."""
     found = []
-    for joint, old, new in zip(joints, before, after, strict=True):
-        if joint.lower - TOLERANCE <= new <= joint.upper + TOLERANCE:
-            continue
-        bound = max(joint.upper, old) if new > old else min(joint.lower, old)
-        if abs(new - old) > abs(bound - old) + TOLERANCE:
-            share = (bound - old) / (new - old)
-            found.append(LimitAtWork(joint.name, LimitKind.POSITION, new, bound, share))
+    for (name, _, lower, upper, limit), old, new in zip(joints, before, after, strict=True):
+        if abs(new - old) > limit * dt * RATE_TOLERANCE:
+            found.append(_rate_at_work(name, (new - old) / dt, limit))
+        if not lower - TOLERANCE <= new <= upper + TOLERANCE:
+            bound = max(upper, old) if new > old else min(lower, old)
+            if abs(new - old) > abs(bound - old) + TOLERANCE:
+                share = (bound - old) / (new - old)
+                found.append(LimitAtWork(name, LimitKind.POSITION, new, bound, share))
     return found
+
+
+def _rate_at_work(name: str, rate: float, limit: float) -> LimitAtWork:
+    return LimitAtWork(name, LimitKind.RATE, rate, math.copysign(limit, rate), limit / abs(rate))
 
 
 def clearance_overruns(
@@ -83,9 +87,7 @@ def clearance_overruns(
 
 def overruns(wrist: Wrist, before: Positions, after: Positions, dt: float) -> list[LimitAtWork]:
     """Return every limit that a step from one set of joint positions to another would overrun."""
-    rates = tuple((new - old) / dt for old, new in zip(before, after, strict=True))
-    found = rate_overruns(wrist.joints, rates)
-    found += position_overruns(wrist.joints, before, after)
+    found = joint_overruns(wrist.joints, before, after, dt)
     clearances = wrist.clearances(after)
     if clearances:
         found += clearance_overruns(wrist.clearances(before), clearances, dt)
@@ -94,4 +96,4 @@ def overruns(wrist: Wrist, before: Positions, after: Positions, dt: float) -> li
 
 def smallest_share(limits: Sequence[LimitAtWork]) -> float:
     """Return the share of a step that keeps all of these limits, 1 when there are none."""
-    return min((limit.share for limit in limits), default=1.0)
+    return min([limit.share for limit in limits], default=1.0)

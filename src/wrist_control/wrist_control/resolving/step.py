@@ -137,13 +137,14 @@ def _step_along_command(
     factor = smallest_share(limits)
     for _ in range(MOST_REDUCTIONS):
         try:
-            after = _moved(wrist, state, twist, factor, dt)
+            positions, memory = _led_to(wrist, state, twist, factor, dt)
         except UnreachableError as error:
-            limits = [_edge(str(error))]
+            limits = [_edge(error)]
             factor *= 0.5
             continue
-        found = overruns(wrist, state.positions, after.positions, dt)
+        found = overruns(wrist, state.positions, positions, dt)
         if not found:
+            after = State(positions, wrist.forward(positions), memory, state.time_lost)
             return _made(state, after, dt, factor, margin, False, limits)
         limits = limits or found
         factor *= smallest_share(found)
@@ -156,43 +157,39 @@ def _step_through_lock(
     wrist: Wrist, state: State, twist: Sequence[float], dt: float, margin: float
 ) -> Step:
     """Scale the joints' way to where the command leads. [Barker1986], fig. 3(b)."""
-    aim, reach, limits = state, 1.0, []
+    reach, limits = 1.0, []
+    aim, memory = state.positions, state.memory
     for _ in range(MOST_REDUCTIONS):
         try:
-            aim = _moved(wrist, state, twist, reach, dt)
+            aim, memory = _led_to(wrist, state, twist, reach, dt)
             break
         except UnreachableError as error:
-            limits = [_edge(str(error))]
+            limits = [_edge(error)]
             reach *= 0.5
-    limits = limits or overruns(wrist, state.positions, aim.positions, dt)
     share = 1.0
     for _ in range(MOST_REDUCTIONS):
-        after = _part_way(wrist, state, aim, share)
-        found = overruns(wrist, state.positions, after.positions, dt)
+        positions = tuple(
+            old + share * (new - old) for old, new in zip(state.positions, aim, strict=True)
+        )
+        found = overruns(wrist, state.positions, positions, dt)
         if not found:
+            scaled = tuple(share * x for x in memory)
+            after = State(positions, wrist.forward(positions), scaled, state.time_lost)
             return _made(state, after, dt, reach * share, margin, True, limits)
+        limits = limits or found
         share *= smallest_share(found)
         if share == 0.0:
             break
     return _made(state, state, dt, 0.0, margin, True, limits)
 
 
-def _moved(wrist: Wrist, state: State, twist: Sequence[float], factor: float, dt: float) -> State:
+def _led_to(
+    wrist: Wrist, state: State, twist: Sequence[float], factor: float, dt: float
+) -> tuple[Positions, Memory]:
+    """Return the joint positions that the scaled command leads to, and the wrist's memory."""
     near, memory = wrist.steer(state.positions, factor, dt, state.memory)
     pose = wrist.advance(state.pose, [factor * x for x in twist], dt)
-    positions = wrist.inverse(pose, near)
-    return State(positions, wrist.forward(positions), memory, state.time_lost)
-
-
-def _part_way(wrist: Wrist, state: State, aim: State, share: float) -> State:
-    if share == 1.0:
-        return aim
-    positions = tuple(
-        old + share * (new - old)
-        for old, new in zip(state.positions, aim.positions, strict=True)
-    )
-    memory = tuple(share * x for x in aim.memory)
-    return State(positions, wrist.forward(positions), memory, state.time_lost)
+    return wrist.inverse(pose, near), memory
 
 
 def _made(
@@ -205,11 +202,12 @@ def _made(
     limits: Sequence[LimitAtWork],
 ) -> Step:
     joint_rates = tuple(
-        (new - old) / dt for old, new in zip(before.positions, after.positions, strict=True)
+        [(new - old) / dt for old, new in zip(before.positions, after.positions, strict=True)]
     )
     if not math.isfinite(sum(joint_rates)):
         raise UnreachableError(f'The step from {before.positions} led nowhere; nothing moves.')
-    state = after._replace(time_lost=before.time_lost + (1.0 - factor) * dt)
+    lost = before.time_lost + (1.0 - factor) * dt
+    state = State(after.positions, after.pose, after.memory, lost)
     achieved = _twist_between(before.pose, after.pose, dt)
     return Step(state, joint_rates, factor, margin, singular, tuple(limits), achieved)
 
@@ -224,5 +222,5 @@ def _twist_between(before: Pose, after: Pose, dt: float) -> Twist:
     return (vx, vy, vz, p, q, r)
 
 
-def _edge(reason: str) -> LimitAtWork:
-    return LimitAtWork(reason, LimitKind.WORKSPACE, 0.0, 0.0, 0.0)
+def _edge(error: UnreachableError) -> LimitAtWork:
+    return LimitAtWork(str(error), LimitKind.WORKSPACE, 0.0, 0.0, 0.0)
