@@ -5,4 +5,5 @@ Nothing is imported here: setup.py reads this file to name the resolver executab
 
 WRISTS = {
     'three_gimbal': 'ThreeGimbal',
+    'stewart': 'Stewart',
 }

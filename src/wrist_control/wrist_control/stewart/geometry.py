@@ -1,0 +1,97 @@
+"""Where the twelve anchors are, and what the legs do at a pose. [Nguyen1991], section 3.
+
+The base is the forearm and the platform is the hand. The paper's R has the platform's axes as its
+columns, so it is the transpose of Barker's C: components go from base axes to platform axes by C.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.rotations import Pose, Vector, direction_cosines
+
+Anchors = tuple[Vector, Vector, Vector, Vector, Vector, Vector]
+# A leg's part in holding the platform: its unit direction and moment, in platform axes.
+Line = tuple[float, float, float, float, float, float]
+
+
+def ring(radius: float, angle: float) -> Anchors:
+    """Return six anchors on a circle in the plane z = 0, m. [Nguyen1991], eqs. (1)-(4).
+
+    Args:
+        radius: Radius of the circle, m.
+        angle: Angle between the anchors 1 and 2, and so 3 and 4, 5 and 6, rad.
+    """
+    directions = [
+        math.radians(60.0 * leg) - 0.5 * angle if leg % 2 else
+        math.radians(60.0 * (leg - 1)) + 0.5 * angle
+        for leg in range(1, 7)
+    ]  # fmt: skip
+    a, b, c, d, e, f = ((radius * math.cos(x), radius * math.sin(x), 0.0) for x in directions)
+    return (a, b, c, d, e, f)
+
+
+def checked_anchors(name: str, given: Sequence[Sequence[float]] | Sequence[float]) -> Anchors:
+    """Return six anchor points as tuples.
+
+    Args:
+        name: What to call them in an error.
+        given: Points in m, shape (6, 3), or the same 18 numbers in a row.
+
+    Raises:
+        InvalidValueError: Not 18 numbers, or some that are not finite.
+    """
+    points = np.asarray(given, dtype=float)
+    if points.size != 18 or not np.isfinite(points).all():
+        raise InvalidValueError(
+            f'{name} has {points.size} numbers; give six points of three finite numbers, m.'
+        )
+    a, b, c, d, e, f = ((float(x), float(y), float(z)) for x, y, z in points.reshape(6, 3))
+    return (a, b, c, d, e, f)
+
+
+def legs(platform: Anchors, base: Anchors, pose: Pose) -> list[Vector]:
+    """Return the vectors from base anchor to platform anchor, platform axes, m.
+
+    [Nguyen1991], eqs. (5)-(9), turned into platform axes: q = C d + p − C b.
+    """
+    (c11, c12, c13), (c21, c22, c23), (c31, c32, c33) = direction_cosines(pose.quaternion)
+    x, y, z = pose.position
+    found = []
+    for (px, py, pz), (bx, by, bz) in zip(platform, base, strict=True):
+        dx, dy, dz = x - bx, y - by, z - bz
+        found.append(
+            (
+                c11 * dx + c12 * dy + c13 * dz + px,
+                c21 * dx + c22 * dy + c23 * dz + py,
+                c31 * dx + c32 * dy + c33 * dz + pz,
+            )
+        )
+    return found
+
+
+def length(leg: Vector) -> float:
+    """Return the length of a leg, m. [Nguyen1991], eq. (10)."""
+    x, y, z = leg
+    return math.sqrt(x * x + y * y + z * z)
+
+
+def line(leg: Vector, reach: float, anchor: Vector) -> Line:
+    """Return how fast a leg grows per hand twist: its unit direction n and moment p × n.
+
+    One row of the geometric inverse Jacobian, platform axes: l̇ = n·v + (p × n)·ω. It is
+    [Nguyen1991], eq. (38), with the body's turning rate in place of angle rates, so that no
+    attitude is special.
+
+    Args:
+        leg: Vector from base anchor to platform anchor, platform axes, m.
+        reach: Its length, m, above 0.
+        anchor: Platform anchor p, platform axes, m.
+    """
+    nx, ny, nz = leg[0] / reach, leg[1] / reach, leg[2] / reach
+    px, py, pz = anchor
+    return (nx, ny, nz, py * nz - pz * ny, pz * nx - px * nz, px * ny - py * nx)
