@@ -107,6 +107,12 @@ def start(wrist: Wrist, positions: Sequence[float] | None = None) -> State:
     return State(chosen, pose)
 
 
+def resting(wrist: Wrist, state: State) -> Step:
+    """Return the step in which nothing moves."""
+    margin = wrist.margin(state.positions)
+    return Step(state, (0.0,) * len(state.positions), 1.0, margin, False, (), STILL)
+
+
 def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     """Return what one step with a commanded hand twist does.
 
@@ -121,9 +127,9 @@ def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     """
     if not math.isfinite(sum(twist)):
         raise InvalidValueError(f'The command {tuple(twist)} is not finite; nothing moves.')
-    margin = wrist.margin(state.positions)
     if not any(twist):
-        return Step(state, (0.0,) * len(state.positions), 1.0, margin, False, (), STILL)
+        return resting(wrist, state)
+    margin = wrist.margin(state.positions)
     if margin < SINGULAR_MARGIN:
         return _step_through_lock(wrist, state, twist, dt, margin)
     return _step_along_command(wrist, state, twist, dt, margin)

@@ -84,6 +84,11 @@ class Wrist:
         if not self.joints:
             object.__setattr__(self, 'joints', self.default_joints)
 
+    @classmethod
+    def dimensions(cls) -> dict[str, tuple[Any, Any]]:
+        """Return the mechanism's own parameters: name to default and what is valid."""
+        return {own.name: (own.default, own.metadata) for own in fields(cls) if own.metadata}
+
     @property
     def home(self) -> Positions:
         """Joint positions to start from when nothing else is asked for."""

@@ -1,0 +1,53 @@
+"""Between ROS messages and the library's plain values. The only place that knows both."""
+
+from __future__ import annotations
+
+import array
+from collections.abc import Sequence
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped, Twist, Vector3
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
+
+from wrist_control.rotations import Pose, xyzw
+
+
+def seconds(stamp: Time) -> float | None:
+    """Return a stamp in s, None when it is zero and so says nothing."""
+    if stamp.sec == 0 and stamp.nanosec == 0:
+        return None
+    return float(stamp.sec + 1e-9 * stamp.nanosec)
+
+
+def twist_values(twist: Twist) -> tuple[float, float, float, float, float, float]:
+    """Return (vx, vy, vz, p, q, r)."""
+    linear, angular = twist.linear, twist.angular
+    return (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
+
+
+def twist_message(values: Sequence[float]) -> Twist:
+    """Return a Twist of (vx, vy, vz, p, q, r)."""
+    vx, vy, vz, p, q, r = values
+    return Twist(linear=Vector3(x=vx, y=vy, z=vz), angular=Vector3(x=p, y=q, z=r))
+
+
+def joint_message(
+    header: Header, names: Sequence[str], positions: Sequence[float], rates: Sequence[float]
+) -> JointState:
+    """Return a JointState; positions in rad or m, rates in rad/s or m/s."""
+    return JointState(
+        header=header,
+        name=list(names),
+        position=array.array('d', positions),
+        velocity=array.array('d', rates),
+    )
+
+
+def pose_message(header: Header, pose: Pose) -> PoseStamped:
+    """Return a PoseStamped of a hand pose in the forearm frame."""
+    message = PoseStamped(header=header)
+    where, turn = message.pose.position, message.pose.orientation
+    where.x, where.y, where.z = pose.position
+    turn.x, turn.y, turn.z, turn.w = xyzw(pose.quaternion)
+    return message

@@ -1,0 +1,155 @@
+"""Joints that stand in for the hardware: they follow commands at real rates, within real limits."""
+
+from __future__ import annotations
+
+import math
+import sys
+from typing import Any
+
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.nodes import convert
+from wrist_control.nodes.diagnostics import OK, Diagnostics
+from wrist_control.nodes.parameters import Spec, declare
+from wrist_control.nodes.qos import NEWEST, OUTPUT
+from wrist_control.nodes.running import run
+from wrist_control.resolving.commands import RefusedError
+from wrist_control.simulation import follow
+from wrist_control.wrists import Joint
+
+EACH = 'one for each joint, or one for all'
+SPECS = [
+    Spec('rate', 100.0, 'Joint states per second, from the node clock', 'Hz', 1.0, 2000.0),
+    Spec('joints', [], 'Joint names; taken from the first joint_command when empty', 'names'),
+    Spec(
+        'initial_positions',
+        [],
+        f'Where the joints start, {EACH}; as first commanded when empty',
+        'rad or m',
+    ),
+    Spec(
+        'joint_rate_limits',
+        [math.radians(64.0)],
+        f'Fastest joint motion, {EACH}',
+        'rad/s or m/s',
+        0.0,
+    ),
+    Spec('joint_lower_limits', [-math.inf], f'Lowest joint position, {EACH}', 'rad or m'),
+    Spec('joint_upper_limits', [math.inf], f'Highest joint position, {EACH}', 'rad or m'),
+]
+
+
+class JointSimulator(Node):
+    """Follows `joint_command` and publishes `joint_states`."""
+
+    def __init__(self, **node_options: Any) -> None:
+        """Declare the parameters and start following.
+
+        Args:
+            node_options: Passed on to rclpy.
+
+        Raises:
+            WristError: A parameter cannot be used; the sentence says why.
+        """
+        super().__init__('joint_simulator', **node_options)
+        self._values = declare(self, SPECS)
+        self._joints: list[Joint] = []
+        self._positions: list[float] = []
+        self._targets: list[float] = []
+        if self._values['joints']:
+            self._begin(self._values['joints'], None)
+        self._diagnostics = Diagnostics(self, self._health)
+        self._publisher = self.create_publisher(JointState, 'joint_states', OUTPUT)
+        self.create_subscription(JointState, 'joint_command', self._on_command, NEWEST)
+        self.create_timer(1.0 / self._values['rate'], self._tick)
+
+    def _begin(self, names: list[str], commanded: list[float] | None) -> None:
+        limits = zip(
+            names,
+            self._spread('joint_lower_limits', names),
+            self._spread('joint_upper_limits', names),
+            self._spread('joint_rate_limits', names),
+            strict=True,
+        )
+        joints = [
+            Joint(name, lower=low, upper=up, rate_limit=rate) for name, low, up, rate in limits
+        ]
+        if self._values['initial_positions']:
+            commanded = self._spread('initial_positions', names)
+        positions = commanded or [0.0] * len(names)
+        for joint, position in zip(joints, positions, strict=True):
+            if not (joint.rate_limit > 0.0 and joint.lower <= position <= joint.upper):
+                raise InvalidValueError(
+                    f'{joint.name} cannot start at {position:g} with limits {joint.lower:g} to '
+                    f'{joint.upper:g} and rate limit {joint.rate_limit:g}; start it inside its '
+                    'limits, with a rate limit above 0.'
+                )
+        self._joints, self._positions, self._targets = joints, list(positions), list(positions)
+
+    def _spread(self, parameter: str, names: list[str]) -> list[float]:
+        values: list[float] = self._values[parameter]
+        if len(values) not in (1, len(names)):
+            raise InvalidValueError(
+                f'{parameter} has {len(values)} values; give 1 for all joints or one for each of '
+                f'{", ".join(names)}.'
+            )
+        return values * len(names) if len(values) == 1 else values
+
+    def _on_command(self, message: JointState) -> None:
+        try:
+            self._take(list(message.name), [float(x) for x in message.position])
+        except RefusedError as error:
+            self._diagnostics.refuse('joint_command', error)
+        except InvalidValueError as error:
+            self._diagnostics.refuse('joint_command', RefusedError('unusable', str(error)))
+
+    def _take(self, names: list[str], positions: list[float]) -> None:
+        if len(names) != len(positions) or not names:
+            raise RefusedError(
+                'wrong length',
+                f'Refused a command with {len(names)} names and {len(positions)} positions; send '
+                'one position for each name.',
+            )
+        if not all(math.isfinite(x) for x in positions):
+            raise RefusedError('not finite', f'Refused a command that is not finite: {positions}.')
+        if not self._joints:
+            self._begin(names, positions)
+        known = [joint.name for joint in self._joints]
+        if sorted(names) != sorted(known):
+            raise RefusedError(
+                'wrong joint names',
+                f'Refused a command for {", ".join(names)}; these joints are {", ".join(known)}.',
+            )
+        wanted = dict(zip(names, positions, strict=True))
+        self._targets = [wanted[name] for name in known]
+
+    def _tick(self) -> None:
+        if not self._joints:
+            return
+        dt = 1.0 / self._values['rate']
+        before = self._positions
+        self._positions = [
+            follow(joint, position, target, dt)
+            for joint, position, target in zip(self._joints, before, self._targets, strict=True)
+        ]
+        rates = [(new - old) / dt for old, new in zip(before, self._positions, strict=True)]
+        header = Header(stamp=self.get_clock().now().to_msg())
+        names = [joint.name for joint in self._joints]
+        self._publisher.publish(convert.joint_message(header, names, self._positions, rates))
+
+    def _health(self) -> tuple[bytes, str, dict[str, str]]:
+        if not self._joints:
+            return OK, 'Waiting for the first joint_command to learn the joints.', {}
+        values = {
+            joint.name: f'{position:.6f}'
+            for joint, position in zip(self._joints, self._positions, strict=True)
+        }
+        return OK, f'Simulating {len(self._joints)} joints.', values
+
+
+def main() -> None:
+    """Run the joint simulator."""
+    sys.exit(run(JointSimulator))

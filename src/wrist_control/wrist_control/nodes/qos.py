@@ -1,0 +1,8 @@
+"""Quality of service, as in docs/interfaces.md."""
+
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+# What is published reaches every kind of subscriber.
+OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+# Of a late burst only the newest counts; and publishers of either kind are heard.
+NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)

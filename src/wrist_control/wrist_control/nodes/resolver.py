@@ -1,0 +1,168 @@
+"""The resolver node, for every wrist: operator rates in, joint commands out."""
+
+from __future__ import annotations
+
+import sys
+from functools import partial
+from types import SimpleNamespace
+from typing import Any
+
+from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.clock import Clock, ClockType
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool, Trigger
+
+from wrist_control.errors import WristError
+from wrist_control.nodes import convert
+from wrist_control.nodes.diagnostics import ERROR, OK, WARN, Diagnostics
+from wrist_control.nodes.parameters import declare, watch
+from wrist_control.nodes.qos import NEWEST
+from wrist_control.nodes.resolver_outputs import Outputs
+from wrist_control.nodes.resolver_settings import limited, settings, specs
+from wrist_control.nodes.running import run
+from wrist_control.resolving.commands import RefusedError, accept
+from wrist_control.resolving.report import WristState
+from wrist_control.resolving.supervisor import Outcome, Supervisor
+from wrist_control.wrists import WRISTS, wrist_class
+
+LEVELS = {
+    WristState.LIMITED: WARN,
+    WristState.SINGULAR: WARN,
+    WristState.STALE: WARN,
+    WristState.FAULT: ERROR,
+}
+
+
+class Resolver(Node):
+    """Turns operator rates into joint commands for one wrist."""
+
+    def __init__(self, wrist_name: str, **node_options: Any) -> None:
+        """Declare the parameters and start stepping.
+
+        Args:
+            wrist_name: One of the registered wrists.
+            node_options: Passed on to rclpy.
+
+        Raises:
+            WristError: A parameter cannot be used; the sentence says why.
+        """
+        super().__init__(f'{wrist_name}_resolver', **node_options)
+        wanted = specs(wrist_name)
+        self._values = declare(self, wanted)
+        wrist = limited(self._mechanism(wrist_name), self._values)
+        self._supervisor = Supervisor(wrist, settings(self._values))
+        self._outputs = Outputs(self, wrist, self._values)
+        self._outcome = self._supervisor.tick(0.0)
+        self._late = self._worst_delay = self._unstamped = 0
+        self._ages = Clock(clock_type=ClockType.STEADY_TIME)
+        if self.get_parameter('use_sim_time').value:
+            self._ages = self.get_clock()
+        watch(self, wanted, self._check, self._apply)
+        self._diagnostics = Diagnostics(self, self._health)
+        self._listen()
+        self.create_timer(1.0 / self._values['rate'], self._tick)
+
+    def _mechanism(self, wrist_name: str) -> Any:
+        made = wrist_class(wrist_name)
+        return made(**{name: self._values[name] for name in made.dimensions()})
+
+    def _listen(self) -> None:
+        self._subscribe(TwistStamped, 'cmd_vel', self._on_stamped)
+        self._subscribe(Twist, 'cmd_vel_unstamped', self._on_unstamped)
+        self._subscribe(JointState, 'joint_states', self._on_joint_states)
+        self.create_service(SetBool, '~/enable', self._on_enable)
+        self.create_service(Trigger, '~/reset', self._on_reset)
+
+    def _subscribe(self, kind: Any, topic: str, callback: Any) -> None:
+        name = f'{kind.__module__.split(".")[0]}/{kind.__name__}'
+        sentence = f'Somebody publishes {topic} with another type; it must be {name}.'
+        events = SubscriptionEventCallbacks(
+            incompatible_type=lambda _: self.get_logger().error(sentence)
+        )
+        self.create_subscription(kind, topic, callback, NEWEST, event_callbacks=events)
+
+    def _on_stamped(self, message: TwistStamped) -> None:
+        stamp = convert.seconds(message.header.stamp)
+        if stamp is None and not self._unstamped:
+            self._unstamped = 1
+            self.get_logger().warning('Commands on cmd_vel have no stamp; each counts as new.')
+        age = None if stamp is None else self._seconds(self.get_clock()) - stamp
+        self._take('cmd_vel', message.twist, message.header.frame_id, age)
+
+    def _on_unstamped(self, message: Twist) -> None:
+        self._take('cmd_vel_unstamped', message, '', None)
+
+    def _take(self, topic: str, twist: Twist, frame: str, age: float | None) -> None:
+        try:
+            command = accept(
+                convert.twist_values(twist),
+                frame,
+                age,
+                self._seconds(self._ages),
+                self._supervisor.settings.command_timeout,
+                self._values['hand_frame'],
+                self._values['forearm_frame'],
+            )
+        except RefusedError as error:
+            self._diagnostics.refuse(topic, error)
+        else:
+            self._supervisor.take_command(command)
+
+    def _on_joint_states(self, message: JointState) -> None:
+        prefix = self._values['joint_prefix']
+        names = [name.removeprefix(prefix) for name in message.name]
+        try:
+            self._supervisor.take_measured(names, message.position, self._seconds(self._ages))
+        except (RefusedError, WristError) as error:
+            refused = error if isinstance(error, RefusedError) else RefusedError('bad', str(error))
+            self._diagnostics.refuse('joint_states', refused)
+
+    def _on_enable(self, request: SetBool.Request, answer: SetBool.Response) -> Any:
+        answer.message = self._supervisor.enable(request.data)
+        answer.success = True
+        return answer
+
+    def _on_reset(self, _: Trigger.Request, answer: Trigger.Response) -> Any:
+        try:
+            answer.message = self._supervisor.reset()
+            answer.success = True
+        except WristError as error:
+            answer.message = str(error)
+        return answer
+
+    def _tick(self) -> None:
+        self._outcome = self._supervisor.tick(self._seconds(self._ages))
+        self._outputs.publish(self._outcome, self.get_clock().now().to_msg())
+
+    def _check(self, changed: dict[str, Any]) -> None:
+        limited(self._supervisor.wrist, {**self._values, **changed})
+
+    def _apply(self, changed: dict[str, Any]) -> None:
+        self._values.update(changed)
+        self._supervisor.wrist = limited(self._supervisor.wrist, self._values)
+        self._supervisor.settings = settings(self._values)
+
+    def _health(self) -> tuple[bytes, str, dict[str, str]]:
+        outcome: Outcome = self._outcome
+        values = {
+            'state': outcome.wrist_state.name,
+            'scale factor': f'{outcome.made.scale_factor:.4f}',
+            'time lost': f'{outcome.made.state.time_lost:.4f} s',
+            'margin': f'{outcome.made.margin:.4f}',
+        }
+        return LEVELS.get(outcome.wrist_state, OK), outcome.message, values
+
+    @staticmethod
+    def _seconds(clock: Clock) -> float:
+        return 1e-9 * clock.now().nanoseconds
+
+
+def main(wrist_name: str) -> None:
+    """Run the resolver of one wrist."""
+    sys.exit(run(partial(Resolver, wrist_name)))
+
+
+# One entry point for each registered wrist: setup.py names them.
+mains = SimpleNamespace(**{name: partial(main, name) for name in WRISTS})

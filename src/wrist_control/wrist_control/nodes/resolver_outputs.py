@@ -1,0 +1,100 @@
+"""What a resolver publishes after each step."""
+
+from __future__ import annotations
+
+import array
+from collections.abc import Mapping
+from typing import Any
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped, Vector3
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray, Header
+from visualization_msgs.msg import MarkerArray
+
+from wrist_control.nodes import convert
+from wrist_control.nodes.markers import wrist_markers
+from wrist_control.nodes.qos import OUTPUT
+from wrist_control.resolving.supervisor import Outcome
+from wrist_control.wrists import Wrist
+from wrist_interfaces.msg import LimitAtWork, WristStatus
+
+# Pictures need not be drawn at the rate of the control loop.
+MARKERS_PER_SECOND = 20.0
+
+
+class Outputs:
+    """The publishers of a resolver."""
+
+    def __init__(self, node: Node, wrist: Wrist, values: Mapping[str, Any]) -> None:
+        """Make the publishers.
+
+        Args:
+            node: The resolver.
+            wrist: For joint names and the lost axis.
+            values: The resolver's parameters.
+        """
+        self._wrist = wrist
+        self._forearm, self._hand = values['forearm_frame'], values['hand_frame']
+        self._names = [values['joint_prefix'] + joint.name for joint in wrist.joints]
+        self._every = max(1, round(values['rate'] / MARKERS_PER_SECOND))
+        self._count = 0
+        self._was_allowed = False
+        self._command = node.create_publisher(JointState, 'joint_command', OUTPUT)
+        self._velocity = node.create_publisher(Float64MultiArray, 'joint_velocity_command', OUTPUT)
+        self._pose = node.create_publisher(PoseStamped, 'hand_pose', OUTPUT)
+        self._status = node.create_publisher(WristStatus, 'wrist_status', OUTPUT)
+        self._markers = node.create_publisher(MarkerArray, 'markers', OUTPUT)
+
+    def publish(self, outcome: Outcome, stamp: Time) -> None:
+        """Publish what one step did."""
+        header = Header(stamp=stamp, frame_id=self._forearm)
+        made = outcome.made
+        if outcome.moving_allowed:
+            self._command.publish(
+                convert.joint_message(header, self._names, made.state.positions, made.joint_rates)
+            )
+        if outcome.moving_allowed or self._was_allowed:
+            # Velocity controllers keep the last value: the last one before silence must be zero.
+            self._velocity.publish(Float64MultiArray(data=array.array('d', made.joint_rates)))
+        self._was_allowed = outcome.moving_allowed
+        self._pose.publish(convert.pose_message(header, made.state.pose))
+        status = self._status_message(outcome, stamp)
+        self._status.publish(status)
+        if self._count % self._every == 0:
+            lost = status.lost_axis
+            self._markers.publish(
+                wrist_markers(
+                    header,
+                    made.state.pose,
+                    (lost.x, lost.y, lost.z),
+                    made.margin,
+                    outcome.message,
+                )
+            )
+        self._count += 1
+
+    def _status_message(self, outcome: Outcome, stamp: Time) -> WristStatus:
+        made = outcome.made
+        x, y, z = self._wrist.lost_axis(made.state.positions)
+        return WristStatus(
+            header=Header(stamp=stamp, frame_id=self._hand),
+            state=int(outcome.wrist_state),
+            scale_factor=made.scale_factor,
+            time_lost=made.state.time_lost,
+            margin=made.margin,
+            lost_axis=Vector3(x=x, y=y, z=z),
+            commanded=convert.twist_message(outcome.commanded),
+            achieved=convert.twist_message(made.achieved),
+            limits=[
+                LimitAtWork(
+                    joint=limit.joint,
+                    kind=int(limit.kind),
+                    asked=limit.asked,
+                    allowed=limit.allowed,
+                )
+                for limit in made.limits
+            ],
+            message=outcome.message,
+        )

@@ -1,0 +1,99 @@
+"""The parameters of a resolver, and the wrist and settings that they describe."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from wrist_control.nodes.parameters import Spec
+from wrist_control.resolving.supervisor import Settings
+from wrist_control.wrists import Wrist, wrist_class
+
+# What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.
+CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
+
+
+def specs(wrist_name: str) -> list[Spec]:
+    """Return the parameters of one wrist's resolver."""
+    kind = wrist_class(wrist_name)
+    wrist = kind()
+    joints = wrist.joints
+    own = [
+        Spec(
+            name, default, facts['description'], facts['unit'], facts['minimum'], facts['maximum']
+        )
+        for name, (default, facts) in kind.dimensions().items()
+    ]
+    unit = 'm' if joints[0].kind == 'prismatic' else 'rad'
+    careful = [min(CAREFUL[joint.kind], joint.rate_limit) for joint in joints]
+    order = ', '.join(joint.name for joint in joints)
+    each = f'one for each of {order}, or one for all'
+    return [
+        *own,
+        Spec('rate', 100.0, 'Steps per second, from the node clock', 'Hz', 1.0, 2000.0),
+        Spec(
+            'command_timeout',
+            0.25,
+            'Age of a command after which the hand is ramped to a stop',
+            's',
+            0.01,
+            10.0,
+            live=True,
+        ),
+        Spec('stop_time', 0.1, 'How long the ramp to a stop takes', 's', 0.001, 10.0, live=True),
+        Spec(
+            'joint_rate_limits',
+            careful,
+            f'Fastest joint motion, {each}; .inf for no limit',
+            f'{unit}/s',
+            0.0,
+            live=True,
+        ),
+        Spec(
+            'joint_lower_limits',
+            [joint.lower for joint in joints],
+            f'Lowest joint position, {each}',
+            unit,
+            live=True,
+        ),
+        Spec(
+            'joint_upper_limits',
+            [joint.upper for joint in joints],
+            f'Highest joint position, {each}',
+            unit,
+            live=True,
+        ),
+        Spec(
+            'initial_positions',
+            list(wrist.home),
+            f'Where the joints start, one for each of {order}',
+            unit,
+        ),
+        Spec('forearm_frame', 'forearm', 'Name of the frame that the wrist stands on'),
+        Spec('hand_frame', 'hand', 'Name of the frame that turns'),
+        Spec('joint_prefix', '', 'Put before every joint name'),
+    ]
+
+
+def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
+    """Return a wrist with the joint limits of the parameters.
+
+    Raises:
+        InvalidValueError: The limits cannot be used.
+    """
+    return wrist.with_limits(
+        rates=values['joint_rate_limits'],
+        lower=values['joint_lower_limits'],
+        upper=values['joint_upper_limits'],
+    )
+
+
+def settings(values: Mapping[str, Any]) -> Settings:
+    """Return what the supervisor is told of the parameters."""
+    return Settings(
+        dt=1.0 / values['rate'],
+        command_timeout=values['command_timeout'],
+        stop_time=values['stop_time'],
+        initial_positions=tuple(values['initial_positions']),
+    )

@@ -1,0 +1,60 @@
+"""Run one node until it is told to stop: SIGINT and SIGTERM end it cleanly with exit code 0."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any
+
+import rclpy
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.task import Future
+
+from wrist_control.errors import WristError
+
+# The events executor of this release spins at full load when it waits without a limit.
+LONGEST_WAIT = 3600.0
+
+
+def run(make_node: Callable[[], Node]) -> int:
+    """Make a node and spin it to its end.
+
+    Args:
+        make_node: Called once ROS is up.
+
+    Returns:
+        The exit code: 0 after an ordinary stop, 2 when the node refuses its parameters.
+    """
+    rclpy.init(args=sys.argv)
+    try:
+        node = make_node()
+    except WristError as error:
+        print(f'Cannot start: {error}', file=sys.stderr)
+        rclpy.try_shutdown()
+        return 2
+    executor = make_executor()
+    executor.add_node(node)
+    gc.collect()
+    gc.freeze()  # what lives now lives to the end: it need not be looked at again
+    try:
+        while rclpy.ok():
+            executor.spin_until_future_complete(Future(), timeout_sec=LONGEST_WAIT)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        executor.remove_node(node)
+        node.destroy_node()
+        rclpy.try_shutdown()
+    return 0
+
+
+def make_executor() -> Executor:
+    """Return the executor with the least delay that this ROS has."""
+    try:
+        experimental: Any = import_module('rclpy.experimental')
+        return experimental.EventsExecutor()
+    except (ImportError, AttributeError):
+        return SingleThreadedExecutor()

@@ -1,0 +1,106 @@
+"""Which commands count: a gate for stamps, ages, frames and numbers. No clock of its own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from wrist_control.errors import WristError
+from wrist_control.rotations import Quaternion, to_hand
+
+# Clocks of two machines may differ by this much, s; a stamp further ahead is refused.
+CLOCK_SKEW = 0.05
+
+
+class RefusedError(WristError, ValueError):
+    """A message that does not count; nothing has changed.
+
+    Attributes:
+        reason: What was wrong in a word or two, the same for every message of that kind.
+    """
+
+    def __init__(self, reason: str, sentence: str) -> None:
+        super().__init__(sentence)
+        self.reason = reason
+
+
+class Command(NamedTuple):
+    """A command that counts.
+
+    Attributes:
+        twist: (vx, vy, vz, p, q, r), rad/s and m/s.
+        in_forearm: True when the twist is given in forearm axes, not in hand axes.
+        received: When it came, s on the clock that ages are judged by.
+    """
+
+    twist: tuple[float, ...]
+    in_forearm: bool
+    received: float
+
+
+def accept(
+    twist: Sequence[float],
+    frame: str,
+    age: float | None,
+    received: float,
+    timeout: float,
+    hand_frame: str,
+    forearm_frame: str,
+) -> Command:
+    """Return a command that counts.
+
+    Args:
+        twist: (vx, vy, vz, p, q, r) as it came.
+        frame: The frame it says it is in; empty means the hand's.
+        age: s since its stamp, below 0 for a stamp in the future; None when it has no stamp.
+        received: When it came, s.
+        timeout: Oldest age that still counts, s.
+        hand_frame: Name of the hand frame.
+        forearm_frame: Name of the forearm frame.
+
+    Raises:
+        RefusedError: The command does not count; the sentence says why.
+    """
+    if not all(math.isfinite(x) for x in twist):
+        raise RefusedError(
+            'not finite', f'Refused a command that is not finite: {tuple(twist)}; send numbers.'
+        )
+    if frame not in ('', hand_frame, forearm_frame):
+        raise RefusedError(
+            'unknown frame',
+            f'Refused a command in frame {frame!r}; use {hand_frame!r}, {forearm_frame!r} or '
+            'an empty frame_id (the hand).',
+        )
+    if age is not None and age < -CLOCK_SKEW:
+        raise RefusedError(
+            'stamp in the future',
+            f'Refused a command stamped {-age:.3f} s in the future; synchronise the clocks.',
+        )
+    if age is not None and age > timeout:
+        raise RefusedError(
+            'too old',
+            f'Refused a command {age:.3f} s old; at most {timeout:g} s (command_timeout) counts.',
+        )
+    return Command(tuple(twist), bool(frame) and frame == forearm_frame != hand_frame, received)
+
+
+def hand_twist(command: Command, orientation: Quaternion) -> tuple[float, ...]:
+    """Return a command's twist in hand axes for a hand at an orientation."""
+    if not command.in_forearm:
+        return command.twist
+    vx, vy, vz, p, q, r = command.twist
+    return (*to_hand(orientation, (vx, vy, vz)), *to_hand(orientation, (p, q, r)))
+
+
+def freshness(age: float, timeout: float, stop_time: float) -> float:
+    """Return the share of a held command that is still followed: 1, then a ramp down to 0.
+
+    Args:
+        age: s since the command came.
+        timeout: Age up to which it is followed in full, s.
+        stop_time: How long the ramp to a stop takes, s.
+    """
+    if age <= timeout:
+        return 1.0
+    return max(0.0, 1.0 - (age - timeout) / stop_time)

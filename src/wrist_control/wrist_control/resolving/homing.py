@@ -1,0 +1,41 @@
+"""The way back to the start: joint by joint at the rate limits, never by a jump."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from wrist_control.resolving.limits import joint_overruns, smallest_share
+from wrist_control.resolving.step import State
+from wrist_control.wrists.wrist import Joint, Positions, Wrist
+
+# Speeds for joints without a rate limit of their own: rad/s, m/s.
+CALM = {'revolute': 0.5, 'prismatic': 0.02}
+
+
+def step_towards(wrist: Wrist, state: State, aim: Sequence[float], dt: float) -> State:
+    """Return the state after one step straight towards joint positions, all arriving together.
+
+    Args:
+        wrist: The mechanism, with the limits to keep.
+        state: Where it is.
+        aim: Joint positions to go to, rad or m.
+        dt: Duration of the step, s.
+    """
+    joints = [_calm(joint) for joint in wrist.joints]
+    share = smallest_share(joint_overruns(joints, state.positions, tuple(aim), dt))
+    positions: Positions = tuple(
+        old + share * (new - old) for old, new in zip(state.positions, aim, strict=True)
+    )
+    return State(positions, wrist.forward(positions), (), state.time_lost)
+
+
+def arrived(state: State, aim: Sequence[float]) -> bool:
+    """Return whether the joints are where they should be."""
+    return max(abs(old - new) for old, new in zip(state.positions, aim, strict=True)) < 1e-9
+
+
+def _calm(joint: Joint) -> Joint:
+    if math.isfinite(joint.rate_limit):
+        return joint
+    return joint._replace(rate_limit=CALM[joint.kind])

@@ -1,0 +1,94 @@
+"""What the operator is told after a step: a state, and one plain sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import IntEnum
+
+from wrist_control.resolving.limits import LimitAtWork, LimitKind
+from wrist_control.resolving.step import Step
+from wrist_control.wrists.wrist import Wrist
+
+# Part of the command that the mechanism may leave out before the operator is told, rad/s or m/s.
+NOTICEABLE = 1e-3
+
+
+class WristState(IntEnum):
+    """What the wrist is doing; the values are those of the WristStatus message."""
+
+    DISABLED = 0
+    IDLE = 1
+    TRACKING = 2
+    SCALED = 3
+    SINGULAR = 4
+    LIMITED = 5
+    STALE = 6
+    FAULT = 7
+
+
+def state_of(made: Step, commanded: Sequence[float]) -> WristState:
+    """Return the state that a step shows."""
+    if not any(commanded):
+        return WristState.IDLE
+    if made.singular:
+        return WristState.SINGULAR
+    if any(limit.kind != LimitKind.RATE for limit in made.limits):
+        return WristState.LIMITED
+    return WristState.SCALED if made.scale_factor < 1.0 else WristState.TRACKING
+
+
+def sentence(wrist: Wrist, made: Step, commanded: Sequence[float]) -> str:
+    """Return what is happening and what to do, in one sentence."""
+    state = state_of(made, commanded)
+    if state == WristState.IDLE:
+        return 'Ready: no motion is commanded.'
+    if state == WristState.SINGULAR:
+        return _singular(wrist, made)
+    if state == WristState.LIMITED:
+        return _limited(wrist, made)
+    if state == WristState.SCALED:
+        return _scaled(wrist, made.limits, made.scale_factor)
+    return _tracking(made, commanded)
+
+
+def _singular(wrist: Wrist, made: Step) -> str:
+    x, y, z = wrist.lost_axis(made.state.positions)
+    return (
+        f'In lock: the hand cannot turn about its axis ({x:.2f}, {y:.2f}, {z:.2f}); the joints '
+        f'are turning into place at {made.scale_factor:.0%} of the command: keep on, or reverse '
+        'to back out.'
+    )
+
+
+def _limited(wrist: Wrist, made: Step) -> str:
+    limit = next(one for one in made.limits if one.kind != LimitKind.RATE)
+    if limit.kind == LimitKind.POSITION:
+        where = f'{limit.joint} is at its limit of {limit.allowed:.3f} {_unit(wrist, limit)}'
+    else:
+        where = f'The wrist is at its limit: {limit.joint}'
+    return f'{where}; move the other way.'
+
+
+def _scaled(wrist: Wrist, limits: Sequence[LimitAtWork], factor: float) -> str:
+    worst = min(limits, key=lambda limit: limit.share)
+    unit = _unit(wrist, worst)
+    return (
+        f'Slowed to {factor:.0%}: {worst.joint} would need {abs(worst.asked):.3g} {unit}/s and '
+        f'may do {abs(worst.allowed):.3g}; ask for less, or turn another way.'
+    )
+
+
+def _tracking(made: Step, commanded: Sequence[float]) -> str:
+    done = made.achieved[-len(commanded) :]
+    missing = [asked - got for asked, got in zip(commanded, done, strict=True)]
+    if max(abs(x) for x in missing) < NOTICEABLE:
+        return 'Following the command.'
+    return (
+        'Following the part of the command that this mechanism can do; the rest is missing from '
+        'the achieved rates.'
+    )
+
+
+def _unit(wrist: Wrist, limit: LimitAtWork) -> str:
+    kinds = {joint.name: joint.kind for joint in wrist.joints}
+    return 'm' if kinds[limit.joint] == 'prismatic' else 'rad'
