@@ -5,5 +5,13 @@ Nothing is imported here: setup.py reads this file to name the resolver executab
 
 WRISTS = {
     'three_gimbal': 'ThreeGimbal',
+    'four_gimbal': 'FourGimbal',
+    'roll_pitch_roll': 'RollPitchRoll',
+    'single_hooke': 'SingleHooke',
+    'double_hooke': 'DoubleHooke',
+    'omni_wrist': 'OmniWrist',
+    'carpal': 'Carpal',
+    'pitch_yaw': 'PitchYaw',
+    'five_bar': 'FiveBar',
     'stewart': 'Stewart',
 }

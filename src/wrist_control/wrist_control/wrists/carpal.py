@@ -1,0 +1,242 @@
+"""Canfield's Carpal wrist: three legs, and a distal plate that mirrors the base. [Canfield1997].
+
+The three mid-nodes span the midplane; the distal plate is the image of the base in it. With the
+midplane's unit normal n the hand's quaternion is (n_z, 0, n_x, -n_y): a tilt without torsion, by
+twice the angle from z to n. docs/equations.md derives what is used here.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, NamedTuple
+
+import numpy as np
+
+from wrist_control.errors import InvalidValueError, UnreachableError
+from wrist_control.rotations import Pose, Vector, nearest_turn, turned, unit
+from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist, parameter
+
+# Azimuths of the three legs as (cos, sin), [Canfield1997], fig. 4.1.
+AZIMUTHS = ((1.0, 0.0), (-0.5, math.sqrt(0.75)), (-0.5, -math.sqrt(0.75)))
+# Poses this far from the mechanism's own, relative to its size, still count as its own.
+TOLERANCE = 1e-6
+# The hand stops where a leg is still this far from folding (the sine of the angle to its fold):
+# at the fold itself the two assembly branches of a leg meet.
+EDGE = 0.02
+# The edge is neared over about this time, s, so that the hand arrives slowly.
+HORIZON = 0.1
+# What can end the workspace, in the order of the rooms that are left of it.
+EDGES = (
+    'closure of leg 1',
+    'closure of leg 2',
+    'closure of leg 3',
+    'tilt of a half turn',
+    'mid-nodes in one line',
+)
+
+
+class _Midplane(NamedTuple):
+    """The mid-nodes and the plane through them.
+
+    Attributes:
+        nodes: Mid-nodes in forearm axes, m.
+        normal: Unit normal n; its sign does not matter to the hand.
+        area: Twice the area of the triangle of mid-nodes, m².
+        lifts: n · ∂m_i/∂θ_i, m: 0 where leg i folds.
+    """
+
+    nodes: tuple[Vector, Vector, Vector]
+    normal: Vector
+    area: float
+    lifts: Vector
+
+
+@dataclass(frozen=True)
+class Carpal(Wrist):
+    """Tilts the hand about two axes and carries it on a sphere of radius `plunge`.
+
+    p and q are followed, r is what a tilt without torsion forces, and the plunge that the joints
+    start with is held.
+    """
+
+    base_radius: float = parameter(0.075, 'from the plate centre to a leg hinge', 'm', 1e-4)
+    leg_length: float = parameter(0.1, 'from a leg hinge to its mid-node', 'm', 1e-4)
+    plunge: float = parameter(0.07, 'from the base plate to the midplane at home', 'm', 1e-4)
+
+    default_joints: ClassVar[tuple[Joint, ...]] = (
+        Joint('theta_1'),
+        Joint('theta_2'),
+        Joint('theta_3'),
+    )
+
+    def __post_init__(self) -> None:
+        """Check that the legs are long enough for the plunge."""
+        super().__post_init__()
+        if self.plunge > 0.999 * self.leg_length:
+            raise InvalidValueError(
+                f'plunge is {self.plunge} m with leg_length {self.leg_length} m; the legs cannot '
+                'reach that far, make plunge smaller than leg_length.'
+            )
+
+    @property
+    def home(self) -> Positions:
+        """The hand straight ahead at the plunge, legs outward."""
+        return (math.asin(self.plunge / self.leg_length),) * 3
+
+    def forward(self, positions: Sequence[float]) -> Pose:
+        """Return the pose of the distal plate, its origin mirrored from the base's."""
+        nodes, (x, y, z), _, _ = self._midplane(positions)
+        m = nodes[0]
+        reach = 2.0 * (x * m[0] + y * m[1] + z * m[2])
+        return Pose((z, 0.0, x, -y), (reach * x, reach * y, reach * z))
+
+    def inverse(self, pose: Pose, near: Sequence[float]) -> Positions:
+        """Return θ1, θ2, θ3 of a pose, each on the branch nearest to `near`.
+
+        Leg i meets the midplane where A cos θ + B sin θ = C, twice or not at all: eight branches.
+        """
+        z, torsion, x, minus_y = pose.quaternion
+        y = -minus_y
+        px, py, pz = pose.position
+        reach = x * px + y * py + z * pz
+        away = math.dist(pose.position, (reach * x, reach * y, reach * z))
+        if abs(torsion) > TOLERANCE or away > TOLERANCE * self.leg_length:
+            raise UnreachableError('the hand can only tilt, mirrored, without torsion')
+        return tuple(
+            self._leg_angle(leg, x * cos + y * sin, z, 0.5 * reach, near[leg])
+            for leg, (cos, sin) in enumerate(AZIMUTHS)
+        )
+
+    def _leg_angle(
+        self, leg: int, outward: float, up: float, distance: float, near: float
+    ) -> float:
+        c = (distance - outward * self.base_radius) / self.leg_length
+        discriminant = outward * outward + up * up - c * c
+        if discriminant < 0.0:
+            raise UnreachableError(EDGES[leg])
+        middle = math.atan2(up, outward)
+        half = math.atan2(math.sqrt(discriminant), c)
+        first, second = nearest_turn(middle - half, near), nearest_turn(middle + half, near)
+        return first if abs(first - near) <= abs(second - near) else second
+
+    def jacobian(self, positions: Sequence[float]) -> np.ndarray:
+        """Return (p, q, r) per (θ̇1, θ̇2, θ̇3), shape (3, 3) and rank 2: the plunge moves too."""
+        (a, b, c), _, area, lifts = self._midplane(positions)
+        columns = [
+            (g * (end[0] - begin[0]), g * (end[1] - begin[1]), g * (begin[2] - end[2]))
+            for g, begin, end in (
+                (2.0 * lifts[0] / area, b, c),
+                (2.0 * lifts[1] / area, c, a),
+                (2.0 * lifts[2] / area, a, b),
+            )
+        ]
+        return np.array(columns).T
+
+    def normal_jacobian(self, positions: Sequence[float]) -> np.ndarray:
+        """Return (dN̂x/dt, dN̂y/dt, dp_d/dt) per joint rate, shape (3, 3). [Canfield1997], (4.12).
+
+        N̂ is the midplane's upward unit normal and p_d the plunge, m.
+        """
+        nodes, normal, area, lifts = self._midplane(positions)
+        m, n = np.array(nodes), np.array(normal)
+        edges = np.roll(m, -2, axis=0) - np.roll(m, -1, axis=0)
+        pivot = np.array([0.0, 0.0, n @ m[0] / n[2]])
+        shares = np.cross(np.roll(m, -1, axis=0) - pivot, np.roll(m, -2, axis=0) - pivot) @ n
+        turning = np.copysign(1.0, n[2]) * np.cross(edges, n)
+        rows = np.array([turning[:, 0], turning[:, 1], shares / n[2]])
+        return np.array(lifts) / area * rows
+
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+        """Return θ̇1, θ̇2, θ̇3 that make p and q and hold the plunge; r is not free."""
+        nodes, (x, y, z), _, lifts = self._midplane(positions)
+        p, q = twist[0], twist[1]
+        r = (x * p + y * q) / z
+        turning = (0.5 * (z * q + y * r), -0.5 * (z * p + x * r), 0.5 * (y * p - x * q))
+        m = nodes[0]
+        plunge = (x * m[0] + y * m[1] + z * m[2]) / z
+        return tuple(
+            -(turning[0] * m[0] + turning[1] * m[1] + turning[2] * (m[2] - plunge)) / lift
+            for m, lift in zip(nodes, lifts, strict=True)
+        )
+
+    def advance(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
+        """Return the pose after p and q for a time, exactly, the plunge held.
+
+        The forced r = (n_x p + n_y q) / n_z does not change while p and q do not.
+        """
+        z, _, x, minus_y = pose.quaternion
+        p, q = twist[0], twist[1]
+        a1, _, a3, a4 = turned(pose.quaternion, (p, q, (x * p - minus_y * q) / z), dt)
+        z1, _, x1, minus_y1 = unit((a1, 0.0, a3, a4))
+        px, py, pz = pose.position
+        reach = (x * px - minus_y * py + z * pz) * z1 / z
+        return Pose((z1, 0.0, x1, minus_y1), (reach * x1, -reach * minus_y1, reach * z1))
+
+    def margin(self, positions: Sequence[float]) -> float:
+        """Return the smallest of what is left of the legs, of the tilt and of the midplane."""
+        return min(self._rooms(positions))
+
+    def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
+        """Return what is left to the workspace edge, in sines of angles."""
+        return tuple(
+            Clearance(name, room - EDGE, HORIZON)
+            for name, room in zip(EDGES, self._rooms(positions), strict=True)
+        )
+
+    def reach(self, azimuth: float) -> float:
+        """Return the tilt β at which a leg folds at the home plunge, rad; π where none does.
+
+        Leg i folds where tan(β/2) cos(α - α_i) = 1/s, s = (-R_d R_b ± √(R_d² + R_b² - 1)) /
+        (1 - R_d²): never when R_d² + R_b² < 1, in ratios to the leg length.
+
+        Args:
+            azimuth: α, the direction of the tilt in the base plate, rad.
+        """
+        rb, rd = self.base_radius / self.leg_length, self.plunge / self.leg_length
+        square = rd * rd + rb * rb - 1.0
+        if square < 0.0:
+            return math.pi
+        root = math.sqrt(square)
+        x, y = math.cos(azimuth), math.sin(azimuth)
+        cotangent = max(
+            s * (x * cos + y * sin) / (1.0 - rd * rd)
+            for s in (-rd * rb - root, -rd * rb + root)
+            for cos, sin in AZIMUTHS
+        )
+        return 2.0 * math.atan2(1.0, max(0.0, cotangent))
+
+    def _rooms(self, positions: Sequence[float]) -> tuple[float, ...]:
+        _, normal, area, lifts = self._midplane(positions)
+        legs = (abs(lift) / self.leg_length for lift in lifts)
+        return (*legs, abs(normal[2]), area / (self.base_radius + self.leg_length) ** 2)
+
+    def _midplane(self, positions: Sequence[float]) -> _Midplane:
+        legs = [
+            (cos, sin, self.leg_length * math.cos(theta), self.leg_length * math.sin(theta))
+            for theta, (cos, sin) in zip(positions, AZIMUTHS, strict=True)
+        ]
+        a, b, c = (
+            ((self.base_radius + out) * cos, (self.base_radius + out) * sin, up)
+            for cos, sin, out, up in legs
+        )
+        x, y, z = _cross(_from(a, b), _from(a, c))
+        area = math.sqrt(x * x + y * y + z * z)
+        if area < TOLERANCE * self.leg_length * self.leg_length:
+            raise UnreachableError('mid-nodes in one line')
+        x, y, z = x / area, y / area, z / area
+        l1, l2, l3 = (z * out - up * (x * cos + y * sin) for cos, sin, out, up in legs)
+        return _Midplane((a, b, c), (x, y, z), area, (l1, l2, l3))
+
+
+def _from(a: Vector, b: Vector) -> Vector:
+    return (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
