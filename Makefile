@@ -17,8 +17,7 @@ setup:  ## install ROS 2 Jazzy and the tools into .venv, and build the packages
 .PHONY: test
 test: setup  ## check the code with ruff and mypy, then run every test
 	@lint=0; ./env python3 scripts/lint.py || lint=$$?; \
-	ROS_PYTHON_CHECK_FIELDS=1 ./env python3 -m pytest -n 2 src/wrist_control/test test \
-	  || exit $$?; \
+	ROS_PYTHON_CHECK_FIELDS=1 ./env python3 -m pytest -n 2 || exit $$?; \
 	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
 	exit $$lint
 

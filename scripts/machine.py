@@ -70,7 +70,7 @@ def check(root: Path) -> None:
     """Raise SetupError with a sentence for everything that is missing here."""
     checks: list[Callable[[], str | None]] = [lambda: path_problem(root)]
     if ros_is_sourced():
-        checks += [distro_problem, ros_problem]
+        checks += [lambda: distro_problem() or ros_problem()]
     else:
         checks += [platform_problem, pip_problem]
     checks += [compiler_problem, header_problem]
@@ -195,6 +195,7 @@ NO_NETWORK = (
     'ConnectTimeoutError',
     'ReadTimeoutError',
     'ProxyError',
+    'SSLError',
     'Connection refused',
     'Network is unreachable',
 )
