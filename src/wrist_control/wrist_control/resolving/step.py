@@ -24,6 +24,11 @@ from wrist_control.wrists.wrist import Memory, Positions, Wrist
 SINGULAR_MARGIN = 0.001
 # A step that has not fitted after this many reductions is not made at all.
 MOST_REDUCTIONS = 60
+# One reduction keeps at least this: a joint resting on its limit can be led away from it and back
+# over it within one step, so only shorter steps show whether the command leads away.
+SMALLEST_SHARE = 0.1
+# Of what the rate limits allow, less than this is no motion.
+SMALLEST_FACTOR = 1e-6
 
 Twist = tuple[float, float, float, float, float, float]
 STILL: Twist = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -141,6 +146,7 @@ def _step_along_command(
     """Scale the command, never its direction. [Barker1986], fig. 3(a)."""
     limits = rate_overruns(wrist.joints, wrist.rates(state.positions, twist))
     factor = smallest_share(limits)
+    smallest = SMALLEST_FACTOR * factor
     for _ in range(MOST_REDUCTIONS):
         try:
             positions, memory = _led_to(wrist, state, twist, factor, dt)
@@ -153,8 +159,8 @@ def _step_along_command(
             after = State(positions, wrist.forward(positions), memory, state.time_lost)
             return _made(state, after, dt, factor, margin, False, limits)
         limits = limits or found
-        factor *= smallest_share(found)
-        if factor == 0.0:
+        factor *= max(SMALLEST_SHARE, smallest_share(found))
+        if factor < smallest:
             break
     return _made(state, state, dt, 0.0, margin, False, limits)
 
