@@ -1,0 +1,118 @@
+"""Barker's four-gimbal wrist: ψ about z, θ about y, φ about x, α about z. [Barker1986], fig. 4."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from wrist_control.rotations import Pose, Vector, about_z, product
+from wrist_control.wrists.three_gimbal import ThreeGimbal
+from wrist_control.wrists.wrist import Joint, Memory, Positions, Wrist, parameter
+
+# The gimbals under the fourth one.
+INNER = ThreeGimbal()
+# sgn(sin φ) is +1 from here up: sgn 0 must choose a side, and round-off must not choose it.
+SIDE = -1e-9
+# α̇ alone may not use up the rest of any joint's range in less than this, s.
+CUSHION = 0.25
+
+
+@dataclass(frozen=True)
+class FourGimbal(Wrist):
+    """Three gimbals, and a fourth that turns the hand so that θ stays away from ±90°.
+
+    α̇ depends on where the gimbals are alone, so the other three must do all that the command
+    still needs, and they lock where those of the three-gimbal wrist do.
+    """
+
+    gain: float = parameter(
+        0.8, 'gain K of the fourth gimbal; above the fastest hand rate', 'rad/s', 0.001, 10.0
+    )
+
+    default_joints: ClassVar[tuple[Joint, ...]] = (
+        Joint('psi'),
+        Joint('theta'),
+        Joint('phi'),
+        Joint('alpha'),
+    )
+
+    def forward(self, positions: Sequence[float]) -> Pose:
+        """Return the hand's pose: C = Z(α) X(φ) Y(θ) Z(ψ). [Barker1986], fig. 5(c)."""
+        inner = INNER.forward(positions[:3])
+        return Pose(product(inner.quaternion, about_z(positions[3])))
+
+    def inverse(self, pose: Pose, near: Sequence[float]) -> Positions:
+        """Return ψ, θ, φ nearest to `near` for the α of `near`. [Barker1986], fig. 5(b)."""
+        alpha = near[3]
+        inner = Pose(product(pose.quaternion, about_z(-alpha)))
+        return (*INNER.inverse(inner, near[:3]), alpha)
+
+    def jacobian(self, positions: Sequence[float]) -> np.ndarray:
+        """Return (p, q, r) per (ψ̇, θ̇, φ̇, α̇), shape (3, 4)."""
+        s, c = math.sin(positions[3]), math.cos(positions[3])
+        to_hand = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        return np.column_stack([to_hand @ INNER.jacobian(positions[:3]), (0.0, 0.0, 1.0)])
+
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+        """Return ψ̇, θ̇, φ̇, α̇; all zero for a zero twist. [Barker1986], figs. 4(b) and 5(d)."""
+        p, q, r = twist
+        if p == q == r == 0.0:
+            return (0.0, 0.0, 0.0, 0.0)
+        s, c = math.sin(positions[3]), math.cos(positions[3])
+        law, share = self._alpha_rate(positions)
+        inner = (p * c - q * s, p * s + q * c, r - share * law)
+        return (*INNER.rates(positions[:3], inner), share * law)
+
+    def margin(self, positions: Sequence[float]) -> float:
+        """Return |cos θ|, with which `rates` grow out of bounds.
+
+        The four joints together keep all three rotations at θ = ±90° as long as φ is not ±90°,
+        but α̇ is not free to help: its law has already spent it.
+        """
+        return INNER.margin(positions[:3])
+
+    def steer(
+        self, positions: Positions, factor: float, dt: float, memory: Memory
+    ) -> tuple[Positions, Memory]:
+        """Return α after the step, by second-order Adams-Bashforth. [Barker1986], fig. 5(a).
+
+        Remembered is the rate at the start of the last step that moved, unscaled, so that α
+        stands still as F goes to 0. Without one, and near a position limit, Euler's rule is used.
+        A pause changes nothing: the gimbals stood still too.
+        """
+        law, share = self._alpha_rate(positions)
+        rate = share * law
+        mean = 1.5 * rate - 0.5 * memory[0] if memory and share == 1.0 else rate
+        return (*positions[:3], positions[3] + factor * dt * mean), (rate,)
+
+    def lost_axis(self, positions: Sequence[float]) -> Vector:
+        """Return the rotation that ψ, θ and φ find hardest to make, in hand axes."""
+        x, y, z = np.linalg.svd(self.jacobian(positions)[:, :3])[0][:, -1]
+        return (float(x), float(y), float(z))
+
+    def _alpha_rate(self, positions: Sequence[float]) -> tuple[float, float]:
+        """Return α̇ by Barker's law, rad/s, and the share of it that the joints have room for.
+
+        Turning α turns the other gimbals even when the hand stands still. Without the share
+        they would be held against a position limit, or α against its own, whatever is commanded.
+        """
+        _, theta, phi, _ = positions
+        law = -self.gain * math.sin(theta)  # [Barker1986], eq. (1)
+        if math.sin(phi) < SIDE:
+            law = -law
+        s, c = math.sin(phi), math.cos(phi)
+        cosine = math.cos(theta)
+        share = 1.0
+        # cos θ times the joints' rates for α̇ = 1 and a hand at rest: no division at lock.
+        moves = (-c, s * cosine, -c * math.sin(theta), cosine)
+        for joint, position, move in zip(self.joints, positions, moves, strict=True):
+            speed = move * law
+            bound = joint.upper if speed * cosine > 0.0 else joint.lower
+            if speed and math.isfinite(bound):
+                room = (bound - position) * math.copysign(cosine, speed)
+                share = min(share, max(0.0, room) / (CUSHION * abs(speed)))
+        return law, share
