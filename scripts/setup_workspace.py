@@ -108,7 +108,7 @@ def make_venv() -> None:
     (VENV / 'COLCON_IGNORE').touch()  # colcon shall not look for packages in it
     (VENV / 'local_setup.sh').touch()  # colcon warns about a ROS prefix without one
 
-    say('installing ROS 2 Jazzy and the tools, about 250 MB: one to three minutes')
+    say('installing ROS 2 Jazzy and the tools, about 200 MB: one to three minutes')
     requirements = str(ROOT / 'requirements.txt')
     # The pins hold for what pip needs to build a source distribution, too.
     pins = {'PIP_CONSTRAINT': requirements, 'PIP_BUILD_CONSTRAINT': requirements, 'PIP_USER': '0'}
