@@ -188,8 +188,9 @@ def is_ros_package(name: str, prefixes: Iterable[Path]) -> bool:
     return any((prefix / 'share' / name / 'package.xml').is_file() for prefix in prefixes)
 
 
-# What pip writes when it cannot reach an index at all; "No matching distribution" comes with it.
-NO_NETWORK = (
+# What pip writes when it cannot reach an index at all, or when the index lacks a version.  A conflict
+# is said then too, although pinned versions that are installed without their needs cannot have one.
+NOT_DOWNLOADED = (
     'NewConnectionError',
     'NameResolutionError',
     'ConnectTimeoutError',
@@ -198,18 +199,20 @@ NO_NETWORK = (
     'SSLError',
     'Connection refused',
     'Network is unreachable',
+    'No matching distribution',
+    'ResolutionImpossible',
 )
 
 
 def pip_sentence(log: Path) -> str:
     """Say in one sentence why pip failed, as far as its output tells."""
     output = log.read_text(errors='replace')
-    if any(sign in output for sign in NO_NETWORK):
+    if any(sign in output for sign in NOT_DOWNLOADED):
         return (
             'the Python packages could not be downloaded, since the package index could not be '
-            'reached: connect to the network, or set PIP_INDEX_URL or HTTPS_PROXY as your network '
-            f'needs it, and run the same command again (all of its output: {log}).'
+            'reached or does not have them: connect to the network, or set PIP_INDEX_URL or '
+            f"HTTPS_PROXY as your network needs it, and run this again (pip's output: {log})."
         )
     errors = [line for line in output.splitlines() if line.startswith('ERROR:')]
     reason = errors[0] if errors else 'nothing about why'
-    return f'pip could not install the packages, and says "{reason}" (all of it: {log}).'
+    return f'pip could not install the packages, and says "{reason}" (its output: {log}).'
