@@ -12,6 +12,7 @@ import numpy as np
 
 from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.rotations import IDENTITY, Pose, Vector, to_forearm, turned
+from wrist_control.stewart.forward_kinematics import ForwardKinematics, Status
 from wrist_control.stewart.geometry import (
     Anchors,
     Line,
@@ -126,6 +127,11 @@ class Stewart(Wrist):
         return math.sqrt(sum(x * x + y * y + z * z for x, y, z in self.platform) / 6.0)
 
     @cached_property
+    def forward_kinematics(self) -> ForwardKinematics:
+        """What takes lengths to poses, and proves them."""
+        return ForwardKinematics(self.platform, self.base, self.size, self.home.pose)
+
+    @cached_property
     def home(self) -> LegLengths:  # type: ignore[override]
         """Leg lengths that hold the platform level at the home height, m."""
         return self.held(Pose(IDENTITY, (0.0, 0.0, self.home_height)))
@@ -205,4 +211,10 @@ class Stewart(Wrist):
         """
         if isinstance(positions, LegLengths):
             return positions.pose
-        raise UnreachableError('Lengths without their pose cannot be solved yet.')
+        solution = self.forward_kinematics.solve(tuple(float(x) for x in positions))
+        if solution.pose is None or solution.status != Status.CONVERGED:
+            raise UnreachableError(
+                f'The lengths {tuple(positions)} m have no pose that home is proved to lead to '
+                f'({solution.status.name}).'
+            )
+        return solution.pose

@@ -1,0 +1,227 @@
+"""Many forward-kinematics solves of a planar platform at once, with the same proof for each."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.rotations import Pose, Quaternion, quaternion_of
+from wrist_control.stewart.certificate import BRANCH, Proof
+from wrist_control.stewart.quadratics import (
+    Coefficients,
+    Nine,
+    Three,
+    beta,
+    dependents,
+    entries,
+    inverse,
+)
+from wrist_control.stewart.stages import Track
+from wrist_control.stewart.tracking import LOW, MOST_CORRECTIONS, ROUNDING, SHARP
+
+# So many at a time stay in the processor's cache.
+CHUNK = 8192
+
+Array = np.ndarray
+
+
+class Tracks(NamedTuple):
+    """`stages.Track` as arrays; lengths are shares of the characteristic length.
+
+    Attributes:
+        at: The unknowns, shape (9, n).
+        iterations: Shape (n,).
+        error: Shape (n,); inf where nothing is proved.
+        unique: Shape (n,); 0 where nothing is proved.
+        followed: Shape (n,).
+    """
+
+    at: Array
+    iterations: Array
+    error: Array
+    unique: Array
+    followed: Array
+
+
+class Roots(NamedTuple):
+    """Where Newton's steps ended, and the last linearisation, before anything is proved."""
+
+    at: Nine[Array]
+    left: Array
+    iterations: Array
+    origin: Nine[Array]
+    rows: tuple[Three[Array], Three[Array], Three[Array]]
+
+
+def checked(lengths: Array) -> Array:
+    """Return lengths as an array of shape (n, 6).
+
+    Raises:
+        InvalidValueError: Not of that shape, or a length that is not finite and above 0.
+    """
+    lengths = np.asarray(lengths, dtype=float)
+    if lengths.ndim != 2 or lengths.shape[1] != 6:
+        raise InvalidValueError(f'lengths has the shape {lengths.shape}; give (n, 6), m.')
+    bad = ~(np.isfinite(lengths) & (lengths > 0.0))
+    if bad.any():
+        row, leg = np.argwhere(bad)[0]
+        raise InvalidValueError(
+            f'The length of leg_{leg + 1} in row {row} is {lengths[row, leg]}; it must be finite '
+            'and above 0 m.'
+        )
+    return lengths
+
+
+def empty(n: int) -> tuple[Array, ...]:
+    """Return room for n answers, none of them solved (status 3, DIVERGED)."""
+    nan = math.nan
+    return (
+        np.full((n, 4), nan),
+        np.full((n, 3), nan),
+        np.full(n, 3),
+        np.zeros(n, dtype=int),
+        np.full(n, math.inf),
+        np.zeros(n),
+    )
+
+
+def starts(near: Pose, size: float, part: slice = slice(None)) -> Array:
+    """Return the unknowns at one pose, shape (9, 1), or at part of many, shape (9, n)."""
+    quaternions, positions = np.atleast_2d(near.quaternion), np.atleast_2d(near.position)
+    if len(quaternions) > 1:
+        quaternions, positions = quaternions[part], positions[part]
+    a1, a2, a3, a4 = quaternions.T
+    x, y, z = positions.T / size
+    return np.stack(
+        np.broadcast_arrays(
+            x,
+            y,
+            a1 * a1 - a2 * a2 - a3 * a3 + a4 * a4,
+            2.0 * (a3 * a4 - a1 * a2),
+            2.0 * (a3 * a4 + a1 * a2),
+            a1 * a1 - a2 * a2 + a3 * a3 - a4 * a4,
+            z,
+            2.0 * (a2 * a4 - a1 * a3),
+            2.0 * (a2 * a3 + a1 * a4),
+        )
+    )
+
+
+def chunks(n: int) -> Iterator[slice]:
+    """Return the parts to solve one after another, so that each stays in the cache."""
+    return (slice(first, min(first + CHUNK, n)) for first in range(0, n, CHUNK))
+
+
+def right_sides(known: Coefficients, lengths: Array) -> Array:
+    """Return what lengths, m, shape (n, 6), say, shape (6, n)."""
+    offset = np.array(known.offset)[:, None]
+    right: Array = np.array(known.squares) @ (lengths * lengths).T + offset
+    return right
+
+
+def solve(known: Coefficients, lengths: Array, start: Array) -> Tracks:
+    """Solve each row of lengths from its start, and prove what was found.
+
+    Args:
+        known: The platform.
+        lengths: m, shape (n, 6).
+        start: Unknowns, shape (9, 1) or (9, n).
+    """
+    with np.errstate(all='ignore'):
+        roots = newton(known, right_sides(known, lengths), start)
+        proofs = prove(known, roots, start)
+    return Tracks(np.stack(roots.at), roots.iterations, *proofs)
+
+
+def newton(known: Coefficients, right: Array, start: Array) -> Roots:
+    """Make Newton steps until rounding is all that is left in every row that converges."""
+    u1, u2, v2, side = start[2], start[4], start[5], start[6]
+    floor = ROUNDING * (1.0 + np.abs(right[3]))
+    iterations = np.full(right.shape[1], MOST_CORRECTIONS)
+    last: Array | None = None
+    for count in range(MOST_CORRECTIONS):
+        x, y, v1, square, zu, zv = dependents(tuple(right), known.free, u1, u2, v2)
+        z = np.copysign(np.sqrt(square), side)
+        at = (x, y, u1, v1, u2, v2, z, zu / z, zv / z)
+        e22, e23, e33 = entries(at)
+        left = np.sqrt(e22 * e22 + 2.0 * e23 * e23 + e33 * e33)
+        ended = ~(left > 0.125 * floor)  # rows without a root hold nan, and end as well
+        if last is not None:
+            ended |= (left < floor) & (left > 0.5 * last)
+        iterations = np.where(ended, np.minimum(iterations, count), MOST_CORRECTIONS)
+        if last is None or np.any((left > SHARP) & ~ended):
+            origin, rows = at, inverse(known.free, at)
+        if ended.all():
+            break
+        (a1, a2, a3), (b1, b2, b3), (c1, c2, c3) = rows
+        u1 = u1 - (a1 * e22 + a2 * e23 + a3 * e33)
+        u2 = u2 - (b1 * e22 + b2 * e23 + b3 * e33)
+        v2 = v2 - (c1 * e22 + c2 * e23 + c3 * e33)
+        last = left
+    return Roots(at, left + floor, iterations, origin, rows)
+
+
+def prove(known: Coefficients, roots: Roots, start: Array) -> tuple[Array, Array, Array]:
+    """Return error, uniqueness, and whether the start leads there: `tracking.solve` for many."""
+    at, left, iterations, origin, rows = roots
+    bound: Array = beta(known, origin, rows)
+    away = _distance(origin, at)
+    slack = 1.0 - 2.0 * bound * away
+    bound = np.where(slack > 0.0, bound / slack, math.inf)
+    discriminant = 1.0 - 4.0 * bound * bound * left
+    root = 1.0 + np.sqrt(discriminant)
+    sound = (discriminant > 0.0) & (iterations < MOST_CORRECTIONS)
+    error = np.where(sound, 2.0 * bound * left / root, math.inf)
+    unique = np.where(sound, 0.5 * root / bound, 0.0)
+    z, u3, v3 = np.abs(start[6]), np.abs(start[7]), np.abs(start[8])
+    leads = (z > LOW) & (z > LOW * u3) & (z > LOW * v3)
+    return error, unique, leads & (bound * (_distance(start, at) + error) <= BRANCH)
+
+
+def _distance(one: Nine[Array] | Array, other: Nine[Array] | Array) -> Array:
+    total = np.zeros(1)
+    for a, b in zip(one, other, strict=True):
+        difference = a - b
+        total = total + difference * difference
+    distance: Array = np.sqrt(total)
+    return distance
+
+
+def poses(at: Array, size: float) -> tuple[Array, Array]:
+    """Return quaternions, shape (n, 4), and positions in m, shape (n, 3), of unknowns."""
+    x, y, u1, v1, u2, v2, z, u3, v3 = at
+    w1, w2, w3 = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
+    trace = 1.0 + u1 + v2 + w3
+    quaternion = np.stack([trace, u2 - v1, w1 - u3, v3 - w2], axis=1)
+    quaternion /= np.sqrt((quaternion * quaternion).sum(axis=1))[:, None]
+    for far in np.flatnonzero(trace <= 0.5):
+        u, v = at[[2, 4, 7], far], at[[3, 5, 8], far]
+        quaternion[far] = quaternion_of(np.array([u, v, np.cross(u, v)]))
+    return quaternion, size * np.stack([x, y, z], axis=1)
+
+
+def row(near: Pose, index: int) -> Pose:
+    """Return one pose of many, or the only one."""
+    quaternion, position = np.atleast_2d(near.quaternion), np.atleast_2d(near.position)
+    index = index if len(quaternion) > 1 else 0
+    a1, a2, a3, a4 = quaternion[index].tolist()
+    x, y, z = position[index].tolist()
+    found: Quaternion = (a1, a2, a3, a4)
+    return Pose(found, (x, y, z))
+
+
+def tracks_of(tracks: Tracks) -> list[Track]:
+    """Return the rows that hold a proved root, one by one."""
+    return [
+        Track(
+            tuple(tracks.at[:, i].tolist()),
+            int(tracks.iterations[i]),
+            Proof(float(tracks.error[i]), float(tracks.unique[i])),
+            bool(tracks.followed[i]),
+        )
+        for i in np.flatnonzero(tracks.unique > 0.0)
+    ]

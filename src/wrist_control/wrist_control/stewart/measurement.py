@@ -1,0 +1,151 @@
+"""What is asked of measured leg lengths, and what their noise and rates mean for the platform."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import combinations
+
+import numpy as np
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.rotations import Pose
+from wrist_control.stewart.geometry import Anchors, Line
+
+# Lengths may miss the triangle inequality by this share: rounding of the readings.
+SLACK = 1e-9
+
+
+def in_order(
+    expected: Sequence[str], names: Sequence[str], values: Sequence[float]
+) -> tuple[float, ...]:
+    """Return the values of the legs in their own order, whatever else is among the names.
+
+    Raises:
+        InvalidValueError: A leg is missing or named twice, or there is not one value per name.
+    """
+    if len(names) != len(values):
+        raise InvalidValueError(
+            f'There are {len(names)} joint names and {len(values)} values; give one for each.'
+        )
+    for name in expected:
+        if (times := list(names).count(name)) != 1:
+            raise InvalidValueError(
+                f'{name} is named {times} times; name each of {", ".join(expected)} once.'
+            )
+    by_name = dict(zip(names, values, strict=True))
+    return tuple(float(by_name[name]) for name in expected)
+
+
+def check_lengths(lengths: Sequence[float]) -> None:
+    """Refuse what cannot be six leg lengths, m.
+
+    Raises:
+        InvalidValueError: The text names the leg and says what is valid.
+    """
+    if len(lengths) != 6:
+        raise InvalidValueError(f'There are {len(lengths)} leg lengths; give 6, m.')
+    for leg, value in enumerate(lengths, start=1):
+        if not (math.isfinite(value) and value > 0.0):
+            raise InvalidValueError(
+                f'The length of leg_{leg} is {value}; it must be finite and above 0 m.'
+            )
+
+
+def impossible_pair(
+    platform: Anchors, base: Anchors, lengths: Sequence[float]
+) -> tuple[int, int] | None:
+    """Return two legs, 1 to 6, whose lengths no pose can have, by the triangle inequality.
+
+    |l_i − l_j| ≤ |b_i − b_j| + |p_i − p_j| at every pose, and l_i + l_j + |p_i − p_j| is at
+    least |b_i − b_j|, and the same with the platforms exchanged.
+    """
+    for i, j in combinations(range(6), 2):
+        low, high = sorted((math.dist(platform[i], platform[j]), math.dist(base[i], base[j])))
+        slack = SLACK * (lengths[i] + lengths[j] + high)
+        if abs(lengths[i] - lengths[j]) > low + high + slack:
+            return (i + 1, j + 1)
+        if lengths[i] + lengths[j] + low < high - slack:
+            return (i + 1, j + 1)
+    return None
+
+
+def check_possible(platform: Anchors, base: Anchors, lengths: Sequence[float]) -> None:
+    """Refuse lengths that no pose can have.
+
+    Raises:
+        InvalidValueError: The text names two legs that contradict each other.
+    """
+    pair = impossible_pair(platform, base, lengths)
+    if pair:
+        i, j = pair
+        raise InvalidValueError(
+            f'leg_{i} at {lengths[i - 1]:g} m and leg_{j} at {lengths[j - 1]:g} m fit no pose '
+            'together; check their readings.'
+        )
+
+
+def check_jump(
+    lengths: Sequence[float], before: Sequence[float], dt: float, fastest: float
+) -> None:
+    """Refuse lengths that lie further from those before than the legs can move.
+
+    Args:
+        lengths: m.
+        before: The last good ones, m.
+        dt: Time between the two, s.
+        fastest: The fastest that a leg moves, m/s.
+
+    Raises:
+        InvalidValueError: The text names the leg and how far it jumped.
+    """
+    for leg, (new, old) in enumerate(zip(lengths, before, strict=True), start=1):
+        if abs(new - old) > fastest * dt:
+            raise InvalidValueError(
+                f'leg_{leg} jumped by {new - old:g} m in {dt:g} s; at {fastest:g} m/s it moves '
+                f'{fastest * dt:g} m at most.'
+            )
+
+
+def pose_covariance(
+    lines: Sequence[Line], pose: Pose, length_noise: float | Sequence[float]
+) -> np.ndarray:
+    """Return the covariance of a pose, J Σ Jᵀ, shape (6, 6): x, y, z, and turns about x, y, z.
+
+    All in base axes, m² and rad², in the order that ROS asks for.
+
+    Args:
+        lines: How each leg grows with the platform's twist, platform axes (`geometry.line`).
+        pose: The pose.
+        length_noise: Standard deviation of the length readings, m, one for all or one per leg.
+
+    Raises:
+        InvalidValueError: Noise that is not finite and 0 or more, or a pose at lock.
+    """
+    sigma = np.broadcast_to(np.asarray(length_noise, dtype=float), 6)
+    if not (np.isfinite(sigma).all() and (sigma >= 0.0).all()):
+        raise InvalidValueError(
+            f'length_noise is {length_noise}; give finite values of 0 m or more, one or six.'
+        )
+    to_base = np.kron(np.eye(2), pose.rotation.T)
+    spread = to_base @ _inverse(lines) * sigma
+    covariance: np.ndarray = spread @ spread.T
+    return covariance
+
+
+def platform_twist(lines: Sequence[Line], rates: Sequence[float]) -> tuple[float, ...]:
+    """Return (vx, vy, vz, p, q, r) of the platform in its own axes, from leg rates in m/s.
+
+    Raises:
+        InvalidValueError: A pose at lock, where leg rates do not tell the twist.
+    """
+    return tuple(float(x) for x in _inverse(lines) @ np.asarray(rates, dtype=float))
+
+
+def _inverse(lines: Sequence[Line]) -> np.ndarray:
+    try:
+        return np.linalg.inv(np.array(lines))
+    except np.linalg.LinAlgError as error:
+        raise InvalidValueError(
+            'The platform is at lock, where leg lengths do not tell its motion; move it away.'
+        ) from error

@@ -1,0 +1,103 @@
+"""Along the branch of a pose, however long the way: stages, each with its proof."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from wrist_control.rotations import Pose, direction_cosines, quaternion_of, unit
+from wrist_control.stewart.certificate import Proof
+from wrist_control.stewart.quadratics import Nine, Six
+
+MOST_STAGES = 400
+# A stage shorter than this share of the rest of the way has met a lock.
+SHORTEST_STAGE = 1e-4
+
+Unknowns = Nine[float]
+
+
+class Track(NamedTuple):
+    """Where a root was followed to; lengths are shares of the characteristic length.
+
+    Attributes:
+        at: The unknowns at the end.
+        iterations: Corrections made on the way.
+        proof: What is proved around `at`.
+        followed: True when the root at `at` is proved to be the one that the start leads to.
+    """
+
+    at: Unknowns
+    iterations: int
+    proof: Proof
+    followed: bool
+
+
+Solve = Callable[[Six[float], Unknowns], 'Track | None']
+Own = Callable[[Unknowns], Six[float]]
+
+
+def follow(solve: Solve, own: Own, goal: Six[float], start: Unknowns) -> Track | None:
+    """Follow the root at a pose to where the squares of the lengths go straight to a goal.
+
+    A step is proved from its end: where `certificate.BRANCH` holds between two poses, every set
+    of lengths on the straight way back has exactly one root near the end, and the start is the
+    last of them. A longer way is made in stages.
+
+    Args:
+        solve: Solves for a goal from a start, in one go.
+        own: What goal the lengths at an assembled pose are.
+        goal: Any six numbers that are linear in the squared lengths.
+        start: An assembled pose; its own lengths are where the way begins.
+
+    Returns:
+        A root that is not `followed` where the way meets a lock or a place where the solver
+        cannot go; None where there is not even that.
+    """
+    direct = solve(goal, start)
+    if direct is not None and direct.followed:
+        return direct
+    return _in_stages(solve, own, goal, start) or direct
+
+
+def _in_stages(solve: Solve, own: Own, goal: Six[float], start: Unknowns) -> Track | None:
+    share, iterations, origin = 0.5, 0, own(start)
+    for _ in range(MOST_STAGES):
+        track = solve(between(origin, goal, share), start)
+        if track is None or not track.followed:
+            share *= 0.5
+            if share < SHORTEST_STAGE:
+                return None
+            continue
+        start, iterations = track.at, iterations + track.iterations
+        if share == 1.0:
+            return track._replace(iterations=iterations)
+        origin = own(start)
+        share = min(1.0, 1.5 * share / (1.0 - share))
+    return None
+
+
+def between(start: Six[float], goal: Six[float], share: float) -> Six[float]:
+    """Return the goal at a share of the way."""
+    if share == 1.0:
+        return goal
+    a, b, c, d, e, f = (old + share * (new - old) for old, new in zip(start, goal, strict=True))
+    return (a, b, c, d, e, f)
+
+
+def unknowns(pose: Pose, size: float) -> Unknowns:
+    """Return the unknowns at a pose."""
+    (u1, u2, u3), (v1, v2, v3), _ = direction_cosines(pose.quaternion)
+    x, y, z = pose.position
+    return (x / size, y / size, u1, v1, u2, v2, z / size, u3, v3)
+
+
+def pose_of(at: Unknowns, size: float) -> Pose:
+    """Return the pose of the unknowns."""
+    x, y, u1, v1, u2, v2, z, u3, v3 = at
+    w1, w2, w3 = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
+    trace = 1.0 + u1 + v2 + w3
+    if trace > 0.5:
+        quaternion = unit((trace, u2 - v1, w1 - u3, v3 - w2))
+    else:
+        quaternion = quaternion_of(((u1, u2, u3), (v1, v2, v3), (w1, w2, w3)))
+    return Pose(quaternion, (x * size, y * size, z * size))
