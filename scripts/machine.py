@@ -188,8 +188,8 @@ def is_ros_package(name: str, prefixes: Iterable[Path]) -> bool:
     return any((prefix / 'share' / name / 'package.xml').is_file() for prefix in prefixes)
 
 
-# What pip writes when it cannot reach an index at all, or when the index lacks a version.  A conflict
-# is said then too, although pinned versions that are installed without their needs cannot have one.
+# What pip writes when it cannot reach an index at all, or when the index lacks a version.  It may
+# speak of a conflict then, although pinned versions, installed without their needs, have none.
 NOT_DOWNLOADED = (
     'NewConnectionError',
     'NameResolutionError',
