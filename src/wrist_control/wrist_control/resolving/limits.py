@@ -12,6 +12,8 @@ from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist
 # A limit counts as kept within this, rad or m: round-off, not motion. Relative for rates.
 TOLERANCE = 1e-9
 RATE_TOLERANCE = 1.0 + TOLERANCE
+# Beyond that a step may go this much further out, so that many steps cannot creep away.
+ROUNDOFF = 1e-12
 
 
 class LimitKind(IntEnum):
@@ -60,7 +62,7 @@ def joint_overruns(
             found.append(_rate_at_work(name, (new - old) / dt, limit))
         if not lower - TOLERANCE <= new <= upper + TOLERANCE:
             bound = max(upper, old) if new > old else min(lower, old)
-            if abs(new - old) > abs(bound - old) + TOLERANCE:
+            if abs(new - old) > abs(bound - old) + ROUNDOFF:
                 share = (bound - old) / (new - old)
                 found.append(LimitAtWork(name, LimitKind.POSITION, new, bound, share))
     return found
@@ -78,8 +80,8 @@ def clearance_overruns(
     for old, new in zip(before, after, strict=True):
         room = max(old.room, 0.0)
         kept = room * max(0.0, 1.0 - dt / old.horizon) if old.horizon > 0.0 else 0.0
-        bound = min(kept, old.room)
-        if new.room < bound - TOLERANCE and new.room < old.room:
+        if new.room < min(kept - TOLERANCE, old.room - ROUNDOFF):
+            bound = min(kept, old.room)
             share = (old.room - bound) / (old.room - new.room)
             found.append(LimitAtWork(old.name, LimitKind.WORKSPACE, new.room, bound, share))
     return found
