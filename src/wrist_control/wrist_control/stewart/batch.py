@@ -131,6 +131,7 @@ def solve(known: Coefficients, lengths: Array, start: Array) -> Tracks:
         lengths: m, shape (n, 6).
         start: Unknowns, shape (9, 1) or (9, n).
     """
+    start = np.broadcast_to(start, (9, len(lengths)))
     with np.errstate(all='ignore'):
         roots = newton(known, right_sides(known, lengths), start)
         proofs = prove(known, roots, start)

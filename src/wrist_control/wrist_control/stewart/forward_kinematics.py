@@ -12,7 +12,7 @@ import numpy as np
 
 from wrist_control.rotations import Pose
 from wrist_control.stewart import assembly, batch, general, quadratics, stages, tracking
-from wrist_control.stewart.geometry import Anchors
+from wrist_control.stewart.geometry import Anchors, hold_at
 from wrist_control.stewart.measurement import check_lengths, impossible_pair
 from wrist_control.stewart.stages import Track
 
@@ -86,8 +86,8 @@ class ColdStart(NamedTuple):
 
     Attributes:
         solution: The pose that home leads to; the nearest of those found where it leads to none.
-        others: Other poses above the base that fit the lengths. A search found them: there may
-            be more.
+        others: Other poses that fit the lengths, above the base and on the same side of lock. A
+            search found them: there may be more.
         message: One sentence for the operator.
     """
 
@@ -130,6 +130,7 @@ class ForwardKinematics:
         Raises:
             InvalidValueError: Not six finite lengths above 0; the text says which.
         """
+        lengths = tuple(map(float, lengths))
         if len(lengths) != 6 or not 0.0 < min(lengths) <= sum(lengths) < math.inf:
             check_lengths(lengths)
         start = stages.unknowns(self.home if near is None else near, self.size)
@@ -152,21 +153,21 @@ class ForwardKinematics:
         """Follow in stages: by the quadratics, and where z cannot lead by six legs at a time."""
         track = None
         if self.planar is not None:
-            track = stages.follow(
+            track, start = stages.follow(
                 partial(tracking.solve, self.planar),
                 partial(quadratics.own_side, self.planar),
                 quadratics.right_side(self.planar, lengths),
                 start,
             )
-        if track is not None and track.followed:
-            return track
-        other = stages.follow(
+            if (track is not None and track.followed) or abs(start[6]) > 2.0 * tracking.LOW:
+                return track
+        other, _ = stages.follow(
             partial(general.solve, self._any),
             partial(general.own_squares, self._any),
             general.squares(self._any, lengths),
             start,
         )
-        return other if other is not None and other.followed else track or other
+        return other or track
 
     def _solution(self, track: Track) -> Solution:
         size, at = self.size, track.at
@@ -265,8 +266,18 @@ class ForwardKinematics:
         pose = solution.pose
         if pose is None:
             return ColdStart(solution, (), 'No pose was found; check the leg readings.')
-        others = tuple(other for other in found if self._apart(other, pose) > 1e-6 * self.size)
+        side = self._hold(pose)
+        others = tuple(
+            other
+            for other in found
+            if self._apart(other, pose) > 1e-6 * self.size
+            and other.pose is not None
+            and self._hold(other.pose) * side > 0.0
+        )
         return ColdStart(solution, others, _message(solution, len(others)))
+
+    def _hold(self, pose: Pose) -> float:
+        return hold_at(self.platform, self.base, self.size, pose)
 
     def _apart(self, solution: Solution, pose: Pose) -> float:
         assert solution.pose is not None

@@ -95,3 +95,25 @@ def line(leg: Vector, reach: float, anchor: Vector) -> Line:
     nx, ny, nz = leg[0] / reach, leg[1] / reach, leg[2] / reach
     px, py, pz = anchor
     return (nx, ny, nz, py * nz - pz * ny, pz * nx - px * nz, px * ny - py * nx)
+
+
+def hold(lines: Sequence[Line], size: float) -> float:
+    """Return how well the legs hold the platform: −1 to 1, and 0 at lock, where the sign changes.
+
+    The volume that the six lines span as six-vectors (n, p × n / size), as a share of what six
+    lines of those lengths can span (Hadamard's bound), so that it has no unit.
+
+    Args:
+        lines: Direction and moment of each leg, platform axes.
+        size: Characteristic length that makes moments comparable with directions, m.
+    """
+    scaled = [(nx, ny, nz, mx / size, my / size, mz / size) for nx, ny, nz, mx, my, mz in lines]
+    bound = math.prod(math.sqrt(1.0 + x * x + y * y + z * z) for _, _, _, x, y, z in scaled)
+    return float(np.linalg.det(scaled)) / bound
+
+
+def hold_at(platform: Anchors, base: Anchors, size: float, pose: Pose) -> float:
+    """Return `hold` at a pose, of anchors in m."""
+    vectors = legs(platform, base, pose)
+    lines = [line(v, length(v), p) for v, p in zip(vectors, platform, strict=True)]
+    return hold(lines, size)

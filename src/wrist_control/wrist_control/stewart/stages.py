@@ -36,7 +36,9 @@ Solve = Callable[[Six[float], Unknowns], 'Track | None']
 Own = Callable[[Unknowns], Six[float]]
 
 
-def follow(solve: Solve, own: Own, goal: Six[float], start: Unknowns) -> Track | None:
+def follow(
+    solve: Solve, own: Own, goal: Six[float], start: Unknowns
+) -> tuple[Track | None, Unknowns]:
     """Follow the root at a pose to where the squares of the lengths go straight to a goal.
 
     A step is proved from its end: where `certificate.BRANCH` holds between two poses, every set
@@ -50,30 +52,26 @@ def follow(solve: Solve, own: Own, goal: Six[float], start: Unknowns) -> Track |
         start: An assembled pose; its own lengths are where the way begins.
 
     Returns:
-        A root that is not `followed` where the way meets a lock or a place where the solver
-        cannot go; None where there is not even that.
+        The root, which is not `followed` where the way meets a lock or a place where the solver
+        cannot go, and None where there is not even that; and how far the way was followed.
     """
     direct = solve(goal, start)
     if direct is not None and direct.followed:
-        return direct
-    return _in_stages(solve, own, goal, start) or direct
-
-
-def _in_stages(solve: Solve, own: Own, goal: Six[float], start: Unknowns) -> Track | None:
+        return direct, direct.at
     share, iterations, origin = 0.5, 0, own(start)
     for _ in range(MOST_STAGES):
         track = solve(between(origin, goal, share), start)
         if track is None or not track.followed:
             share *= 0.5
             if share < SHORTEST_STAGE:
-                return None
+                break
             continue
         start, iterations = track.at, iterations + track.iterations
         if share == 1.0:
-            return track._replace(iterations=iterations)
+            return track._replace(iterations=iterations), start
         origin = own(start)
         share = min(1.0, 1.5 * share / (1.0 - share))
-    return None
+    return direct, start
 
 
 def between(start: Six[float], goal: Six[float], share: float) -> Six[float]:

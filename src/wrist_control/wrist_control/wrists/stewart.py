@@ -17,6 +17,7 @@ from wrist_control.stewart.geometry import (
     Anchors,
     Line,
     checked_anchors,
+    hold,
     legs,
     length,
     line,
@@ -50,17 +51,8 @@ class LegLengths(tuple[float, ...]):
 
     @cached_property
     def hold(self) -> float:
-        """How well the legs hold the platform, −1 to 1, and 0 at lock, where it changes sign.
-
-        The volume that the six lines span as six-vectors (n, p × n / size), as a share of what
-        lines of those lengths can span (Hadamard's bound).
-        """
-        scaled = [
-            (nx, ny, nz, mx / self.size, my / self.size, mz / self.size)
-            for nx, ny, nz, mx, my, mz in self.lines
-        ]
-        bound = math.prod(math.sqrt(1.0 + x * x + y * y + z * z) for _, _, _, x, y, z in scaled)
-        return float(np.linalg.det(scaled)) / bound
+        """How well the legs hold the platform: `geometry.hold`."""
+        return hold(self.lines, self.size)
 
 
 @dataclass(frozen=True)

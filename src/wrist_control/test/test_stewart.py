@@ -1,0 +1,222 @@
+"""The Stewart platform as a wrist: geometry, six rates, and what happens near lock."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from wrist_control import InvalidValueError, UnreachableError, make_wrist
+from wrist_control.resolving import LimitKind, start, step
+from wrist_control.rotations import Pose, about_z, rates_between, turned
+from wrist_control.wrists.stewart import EDGE, INCH, LegLengths
+
+WRIST = make_wrist('stewart')
+HOME = WRIST.home.pose
+DT = 0.01
+
+small = st.floats(-0.06, 0.06)
+turns = st.floats(-0.4, 0.4)
+poses = st.builds(
+    lambda x, y, z, p, q, r: Pose(
+        turned(HOME.quaternion, (p, q, r), 1.0), (x, y, HOME.position[2] + z)
+    ),
+    small, small, small, turns, turns, turns,
+)  # fmt: skip
+twists = st.tuples(*[st.floats(-1.0, 1.0)] * 6).filter(lambda t: max(map(abs, t)) > 0.05)
+
+
+def explicit_lengths(pose):
+    """The same by matrices in base axes: l = |d + R p − b|, R from the rotation vector."""
+    rotation = pose.rotation.T
+    platform, base = np.array(WRIST.platform), np.array(WRIST.base)
+    return np.linalg.norm(np.array(pose.position) + platform @ rotation.T - base, axis=1)
+
+
+def fly(wrist, twist, steps, state=None):
+    state = state or start(wrist)
+    made = None
+    for _ in range(steps):
+        made = step(wrist, state, twist, DT)
+        state = made.state
+    return made
+
+
+def test_anchors_lie_where_the_figure_shows_them():
+    # [Nguyen1991], fig. 3: x is perpendicular to the lines from anchor 1 to 6; 1 to 2 spans θ.
+    for anchors, radius, angle in (
+        (WRIST.platform, 10.441 * INCH, math.radians(99.2)),
+        (WRIST.base, 13.838 * INCH, math.radians(16.0)),
+    ):
+        points = np.array(anchors)
+        assert points[0, 0] == pytest.approx(points[5, 0], abs=1e-15)
+        for leg in (0, 2, 4):
+            between = points[leg] @ points[leg + 1] / radius**2
+            assert math.acos(between) == pytest.approx(angle, abs=1e-12)
+        for one, other in ((0, 2), (2, 4)):
+            assert points[one] @ points[other] / radius**2 == pytest.approx(-0.5, abs=1e-12)
+        assert np.allclose(points.sum(axis=0), 0.0, atol=1e-15)
+
+
+@given(poses)
+def test_lengths_are_those_of_explicit_matrices(pose):
+    assert WRIST.inverse(pose, WRIST.home) == pytest.approx(explicit_lengths(pose), rel=1e-14)
+
+
+@given(poses, twists)
+def test_rates_are_the_change_of_the_lengths(pose, twist):
+    lengths, h = WRIST.held(pose), 1e-6
+    ahead, behind = (explicit_lengths(WRIST.advance(pose, twist, dt)) for dt in (h, -h))
+    assert WRIST.rates(lengths, twist) == pytest.approx((ahead - behind) / (2 * h), abs=1e-8)
+
+
+@given(poses, twists)
+def test_jacobian_gives_back_the_twist(pose, twist):
+    lengths = WRIST.held(pose)
+    rates = WRIST.rates(lengths, twist)
+    assert WRIST.jacobian(lengths) @ rates == pytest.approx(twist, abs=1e-11)
+
+
+@given(poses, twists, st.tuples(*[st.floats(-50.0, 50.0)] * 6))
+def test_legs_do_the_work_that_the_platform_gets(pose, twist, forces):
+    lengths = WRIST.held(pose)
+    rotation, d = pose.rotation.T, np.array(pose.position)
+    arms = np.array(WRIST.platform) @ rotation.T
+    pulls = d + arms - np.array(WRIST.base)
+    pulls *= (np.array(forces) / np.linalg.norm(pulls, axis=1))[:, None]
+    force, moment = pulls.sum(axis=0), np.cross(arms, pulls).sum(axis=0)
+    power = force @ rotation @ twist[:3] + moment @ rotation @ twist[3:]
+    assert np.dot(forces, WRIST.rates(lengths, twist)) == pytest.approx(power, abs=1e-9)
+
+
+def test_home_is_level_centred_and_all_legs_are_equal():
+    assert HOME.position == (0.0, 0.0, 17.0 * INCH)
+    assert max(WRIST.home) == pytest.approx(min(WRIST.home), rel=1e-14)
+
+
+def test_lengths_without_a_pose_belong_to_home():
+    pose = Pose(turned(HOME.quaternion, (0.2, -0.1, 0.3), 1.0), (0.03, -0.02, 0.45))
+    plain = tuple(WRIST.held(pose))
+    found = WRIST.forward(plain)
+    assert not isinstance(plain, LegLengths)
+    assert found.position == pytest.approx(pose.position, abs=1e-14)
+    assert rates_between(found.quaternion, pose.quaternion, 1.0) == pytest.approx(
+        (0, 0, 0), abs=1e-13
+    )
+    assert WRIST.margin(plain) == pytest.approx(WRIST.margin(WRIST.held(pose)))
+
+
+def test_lengths_that_no_pose_has_are_refused():
+    with pytest.raises(UnreachableError, match='UNREACHABLE'):
+        WRIST.forward((0.1, 0.5, 0.5, 0.5, 0.5, 2.5))
+
+
+def test_a_platform_on_its_base_is_refused():
+    pose = Pose(HOME.quaternion, tuple(np.subtract(WRIST.base[0], WRIST.platform[0])))
+    with pytest.raises(UnreachableError, match='no length'):
+        WRIST.held(pose)
+
+
+@pytest.mark.parametrize('side', [-1.0, 1.0])
+def test_yaw_of_a_quarter_turn_is_lock(side):
+    at = Pose(about_z(side * 0.5 * math.pi), HOME.position)
+    assert WRIST.margin(WRIST.held(at)) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_margin_has_no_unit():
+    pose = Pose(turned(HOME.quaternion, (0.2, 0.3, 0.4), 1.0), (0.03, 0.02, 0.4))
+    ten = make_wrist(
+        'stewart',
+        platform_anchors=10.0 * np.array(WRIST.platform),
+        base_anchors=10.0 * np.array(WRIST.base),
+        home_height=10.0 * WRIST.home_height,
+    )
+    larger = Pose(pose.quaternion, tuple(10.0 * x for x in pose.position))
+    assert ten.margin(ten.held(larger)) == pytest.approx(WRIST.margin(WRIST.held(pose)))
+
+
+@given(poses)
+def test_margin_is_at_most_one(pose):
+    assert 0.0 <= WRIST.margin(WRIST.held(pose)) <= 1.0
+
+
+def test_the_lost_axis_at_a_quarter_turn_is_the_normal():
+    lengths = WRIST.held(Pose(about_z(0.5 * math.pi - 1e-6), HOME.position))
+    assert np.abs(WRIST.lost_axis(lengths)) == pytest.approx((0, 0, 1), abs=1e-3)
+
+
+@given(twists)
+@settings(max_examples=30, deadline=None)
+def test_all_six_rates_are_scaled_alike(twist):
+    wrist = WRIST.with_limits(rates=0.05)
+    made = step(wrist, start(wrist), twist, DT)
+    assert made.achieved == pytest.approx([made.scale_factor * x for x in twist], abs=1e-9)
+    assert max(map(abs, made.joint_rates)) <= 0.05 * (1 + 1e-6)
+
+
+LOCKS = {
+    'yaw': (0, 0, 0, 0, 0, 1.0),
+    'yaw the other way': (0, 0, 0, 0, 0, -1.0),
+    'tilt about x': (0, 0, 0, 1.0, 0, 0),
+    'tilt about y': (0, 0, 0, 0, 1.0, 0),
+    'tilt about −y': (0, 0, 0, 0, -1.0, 0),
+    'sinking': (0, 0, -0.2, 0, 0, 0),
+}
+
+
+@pytest.mark.parametrize('twist', LOCKS.values(), ids=LOCKS)
+def test_the_hand_slows_before_lock_and_backs_out_freely(twist):
+    made = fly(WRIST, twist, 500)
+    assert made.scale_factor < 0.01
+    assert EDGE < made.margin < EDGE + 0.002
+    assert made.limits[0].joint == 'the legs near lock'
+    back = step(WRIST, made.state, [-x for x in twist], DT)
+    assert back.scale_factor == 1.0
+
+
+def test_one_long_step_cannot_jump_over_lock():
+    made = step(WRIST, start(WRIST), (0, 0, 0, 0, 0, 1.0), 2.5)
+    assert made.scale_factor < 1.0
+    assert WRIST.clearances(made.state.positions)[0].room > -1e-8
+
+
+def test_the_stroke_ends_the_motion_and_backing_out_is_free():
+    reach = WRIST.home[0] + 0.02
+    wrist = WRIST.with_limits(upper=reach)
+    made = fly(wrist, (0, 0, 0.1, 0, 0, 0), 100)
+    assert made.scale_factor == pytest.approx(0.0, abs=1e-6)
+    assert max(made.state.positions) == pytest.approx(reach, abs=1e-8)
+    assert {limit.kind for limit in made.limits} == {LimitKind.POSITION}
+    assert step(wrist, made.state, (0, 0, -0.1, 0, 0, 0), DT).scale_factor == 1.0
+
+
+def test_the_pose_does_not_drift_from_its_lengths():
+    made = fly(WRIST, (0.02, -0.03, 0.01, 0.1, -0.2, 0.15), 200)
+    state = made.state
+    assert state.positions == pytest.approx(explicit_lengths(state.pose), rel=1e-13)
+
+
+def test_twelve_anchors_are_the_same_wrist_as_the_ring():
+    same = make_wrist(
+        'stewart',
+        platform_anchors=[x for point in WRIST.platform for x in point],
+        base_anchors=np.array(WRIST.base),
+    )
+    assert tuple(same.home) == tuple(WRIST.home)
+    assert same.size == pytest.approx(10.441 * INCH)
+
+
+@pytest.mark.parametrize(
+    ('wrong', 'says'),
+    [
+        ({'platform_radius': -1.0}, 'platform_radius is -1.0'),
+        ({'base_angle': 3.0}, 'base_angle is 3.0'),
+        ({'platform_anchors': [[0.0, 0.0, 0.0]]}, 'platform_anchors has 3 numbers'),
+        ({'base_anchors': [math.nan] * 18}, 'base_anchors has 18 numbers'),
+        ({'platform_angle': 0.3, 'base_angle': 0.3}, 'do not hold the platform'),
+    ],
+)
+def test_what_cannot_be_a_platform_is_refused(wrong, says):
+    with pytest.raises(InvalidValueError, match=says):
+        make_wrist('stewart', **wrong)
