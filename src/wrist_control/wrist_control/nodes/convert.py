@@ -17,7 +17,12 @@ def seconds(stamp: Time) -> float | None:
     """Return a stamp in s, None when it is zero and so says nothing."""
     if stamp.sec == 0 and stamp.nanosec == 0:
         return None
-    return float(stamp.sec + 1e-9 * stamp.nanosec)
+    return seconds_of(stamp.sec * 10**9 + stamp.nanosec)
+
+
+def seconds_of(nanoseconds: int) -> float:
+    """Return a time in s: equal times give equal floats, whatever they came as."""
+    return 1e-9 * nanoseconds
 
 
 def twist_values(twist: Twist) -> tuple[float, float, float, float, float, float]:

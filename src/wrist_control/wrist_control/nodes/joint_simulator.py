@@ -1,4 +1,4 @@
-"""Joints that stand in for the hardware: they follow commands at real rates, within real limits."""
+"""Joints that stand in for the hardware: they follow commands at real rates, within limits."""
 
 from __future__ import annotations
 

@@ -18,6 +18,7 @@ from wrist_control.nodes.diagnostics import OK, Diagnostics
 from wrist_control.nodes.parameters import Spec, declare, watch
 from wrist_control.nodes.qos import NEWEST, OUTPUT
 from wrist_control.nodes.running import run
+from wrist_control.resolving.newest import Newest
 from wrist_interfaces.msg import WristStatus
 
 SPECS = [
@@ -38,6 +39,7 @@ SPECS = [
         100.0,
         live=True,
     ),
+    Spec('listeners', 1.0, 'Subscribers of cmd_vel that a maneuver waits for', '', 0.0, 100.0),
     Spec('frame_id', '', 'Frame of the commands: the hand frame, the forearm frame, or empty'),
 ]
 
@@ -61,7 +63,8 @@ class Operator(Node):
             self._maneuver = make_maneuver(self._values['maneuver'], self._values['speed'])
         self._check(self._values)
         self._began: float | None = None
-        self._time_lost = self._lost_before = 0.0
+        self._times_lost: Newest[float] = Newest()
+        self._lost_before = 0.0
         self._done = False
         watch(self, SPECS, self._check, self._values.update)
         self._diagnostics = Diagnostics(self, self._health)
@@ -79,11 +82,11 @@ class Operator(Node):
 
     def _on_status(self, message: WristStatus) -> None:
         if math.isfinite(message.time_lost):
-            self._time_lost = message.time_lost
+            self._times_lost.put(convert.seconds(message.header.stamp), message.time_lost)
 
     def _tick(self) -> None:
         now = self.get_clock().now()
-        p, q, r = self._rates(1e-9 * now.nanoseconds)
+        p, q, r = self._rates(convert.seconds_of(now.nanoseconds))
         header = Header(stamp=now.to_msg(), frame_id=self._values['frame_id'])
         twist = convert.twist_message((0.0, 0.0, 0.0, p, q, r))
         self._publisher.publish(TwistStamped(header=header, twist=twist))
@@ -92,13 +95,14 @@ class Operator(Node):
         if self._maneuver is None:
             rates: Sequence[float] = self._values['constant_rates']
             return rates
+        time_lost = self._times_lost.at(now) or 0.0
         if self._began is None:
-            if self._publisher.get_subscription_count() == 0:
+            if self._publisher.get_subscription_count() < self._values['listeners']:
                 return STILL
-            self._began, self._lost_before = now, self._time_lost
+            self._began, self._lost_before = now, time_lost
         time = now - self._began
         if self._maneuver.waits:
-            time -= max(0.0, self._time_lost - self._lost_before)
+            time -= max(0.0, time_lost - self._lost_before)
         if time >= self._maneuver.duration and not self._done:
             self._done = True
             self.get_logger().info(f'{self._maneuver.name} flown in {now - self._began:.2f} s.')

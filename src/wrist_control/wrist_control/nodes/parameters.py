@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 import math
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -94,7 +95,7 @@ def checked(spec: Spec, value: object) -> Any:
             raise InvalidValueError(f'{spec.name} is {text!r}; valid is {_valid(spec)}.')
         return text
     if isinstance(spec.default, list):
-        values = list(value) if isinstance(value, Sequence) or _is_array(value) else [value]
+        values = list(value) if isinstance(value, (list, tuple, array.array)) else [value]
         if (spec.default and isinstance(spec.default[0], str)) or spec.unit == 'names':
             return [_as(str, spec, item) for item in values]
         return [_number(spec, item) for item in values]
@@ -136,10 +137,6 @@ def _as(kind: type, spec: Spec, value: object) -> Any:
     if not isinstance(value, kind):
         raise InvalidValueError(_wrong(spec, value))
     return value
-
-
-def _is_array(value: object) -> bool:
-    return hasattr(value, 'typecode')
 
 
 def _wrong(spec: Spec, value: object) -> str:

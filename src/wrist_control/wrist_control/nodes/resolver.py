@@ -54,8 +54,8 @@ class Resolver(Node):
         wrist = limited(self._mechanism(wrist_name), self._values)
         self._supervisor = Supervisor(wrist, settings(self._values))
         self._outputs = Outputs(self, wrist, self._values)
-        self._outcome = self._supervisor.tick(0.0)
-        self._late = self._worst_delay = self._unstamped = 0
+        self._outcome = self._supervisor.tick(0.0, 0.0)
+        self._warned_unstamped = False
         self._ages = Clock(clock_type=ClockType.STEADY_TIME)
         if self.get_parameter('use_sim_time').value:
             self._ages = self.get_clock()
@@ -85,21 +85,21 @@ class Resolver(Node):
 
     def _on_stamped(self, message: TwistStamped) -> None:
         stamp = convert.seconds(message.header.stamp)
-        if stamp is None and not self._unstamped:
-            self._unstamped = 1
+        if stamp is None and not self._warned_unstamped:
+            self._warned_unstamped = True
             self.get_logger().warning('Commands on cmd_vel have no stamp; each counts as new.')
-        age = None if stamp is None else self._seconds(self.get_clock()) - stamp
-        self._take('cmd_vel', message.twist, message.header.frame_id, age)
+        self._take('cmd_vel', message.twist, message.header.frame_id, stamp)
 
     def _on_unstamped(self, message: Twist) -> None:
         self._take('cmd_vel_unstamped', message, '', None)
 
-    def _take(self, topic: str, twist: Twist, frame: str, age: float | None) -> None:
+    def _take(self, topic: str, twist: Twist, frame: str, stamp: float | None) -> None:
         try:
             command = accept(
                 convert.twist_values(twist),
                 frame,
-                age,
+                stamp,
+                self._seconds(self.get_clock()),
                 self._seconds(self._ages),
                 self._supervisor.settings.command_timeout,
                 self._values['hand_frame'],
@@ -133,8 +133,11 @@ class Resolver(Node):
         return answer
 
     def _tick(self) -> None:
-        self._outcome = self._supervisor.tick(self._seconds(self._ages))
-        self._outputs.publish(self._outcome, self.get_clock().now().to_msg())
+        now = self.get_clock().now()
+        self._outcome = self._supervisor.tick(
+            convert.seconds_of(now.nanoseconds), self._seconds(self._ages)
+        )
+        self._outputs.publish(self._outcome, now.to_msg())
 
     def _check(self, changed: dict[str, Any]) -> None:
         limited(self._supervisor.wrist, {**self._values, **changed})
@@ -156,7 +159,7 @@ class Resolver(Node):
 
     @staticmethod
     def _seconds(clock: Clock) -> float:
-        return 1e-9 * clock.now().nanoseconds
+        return convert.seconds_of(clock.now().nanoseconds)
 
 
 def main(wrist_name: str) -> None:

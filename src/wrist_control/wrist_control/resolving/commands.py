@@ -31,18 +31,21 @@ class Command(NamedTuple):
     Attributes:
         twist: (vx, vy, vz, p, q, r), rad/s and m/s.
         in_forearm: True when the twist is given in forearm axes, not in hand axes.
+        stamp: Its stamp, s; None when it has none.
         received: When it came, s on the clock that ages are judged by.
     """
 
     twist: tuple[float, ...]
     in_forearm: bool
+    stamp: float | None
     received: float
 
 
 def accept(
     twist: Sequence[float],
     frame: str,
-    age: float | None,
+    stamp: float | None,
+    now: float,
     received: float,
     timeout: float,
     hand_frame: str,
@@ -53,8 +56,9 @@ def accept(
     Args:
         twist: (vx, vy, vz, p, q, r) as it came.
         frame: The frame it says it is in; empty means the hand's.
-        age: s since its stamp, below 0 for a stamp in the future; None when it has no stamp.
-        received: When it came, s.
+        stamp: Its stamp, s; None when it has none and so counts as just made.
+        now: The time on the clock of the stamps, s.
+        received: When it came, s on the clock that ages are judged by.
         timeout: Oldest age that still counts, s.
         hand_frame: Name of the hand frame.
         forearm_frame: Name of the forearm frame.
@@ -72,17 +76,19 @@ def accept(
             f'Refused a command in frame {frame!r}; use {hand_frame!r}, {forearm_frame!r} or '
             'an empty frame_id (the hand).',
         )
-    if age is not None and age < -CLOCK_SKEW:
+    age = 0.0 if stamp is None else now - stamp
+    if age < -CLOCK_SKEW:
         raise RefusedError(
             'stamp in the future',
             f'Refused a command stamped {-age:.3f} s in the future; synchronise the clocks.',
         )
-    if age is not None and age > timeout:
+    if age > timeout:
         raise RefusedError(
             'too old',
             f'Refused a command {age:.3f} s old; at most {timeout:g} s (command_timeout) counts.',
         )
-    return Command(tuple(twist), bool(frame) and frame == forearm_frame != hand_frame, received)
+    in_forearm = frame == forearm_frame and frame not in ('', hand_frame)
+    return Command(tuple(twist), in_forearm, stamp, received)
 
 
 def hand_twist(command: Command, orientation: Quaternion) -> tuple[float, ...]:

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from wrist_control.errors import InvalidValueError, WristError
 from wrist_control.resolving.commands import Command, RefusedError, freshness, hand_twist
 from wrist_control.resolving.homing import arrived, step_towards
+from wrist_control.resolving.newest import Newest
 from wrist_control.resolving.report import WristState, sentence, state_of
 from wrist_control.resolving.step import STILL, State, Step, Twist, resting, start, step
 from wrist_control.wrists.wrist import Positions, Wrist
@@ -85,15 +86,15 @@ class Supervisor:
         self.settings = settings
         self.state: State = start(wrist, settings.initial_positions)
         self.mode = Mode.FOLLOWING
-        self._command: Command | None = None
+        self._commands: Newest[Command] = Newest()
         self._measured: Positions | None = None
         self._moved = False
         self._lagging_since: float | None = None
         self._fault = ''
 
     def take_command(self, command: Command) -> None:
-        """Follow a command from now on; the newest counts."""
-        self._command = command
+        """Follow a command from the first step after its stamp; the newest counts."""
+        self._commands.put(command.stamp, command)
 
     def take_measured(self, names: Sequence[str], positions: Sequence[float], now: float) -> None:
         """Hear where the joints really are; before the first motion, start from there.
@@ -113,7 +114,7 @@ class Supervisor:
             self.mode = Mode.DISABLED
             return 'Disabled: the joints stay where they are.'
         if self.mode in (Mode.DISABLED, Mode.FAULT):
-            self._command = None
+            self._commands.forget()
             self._lagging_since = None
             self._moved = False
             if self._measured is not None:
@@ -134,39 +135,40 @@ class Supervisor:
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
-    def tick(self, now: float) -> Outcome:
+    def tick(self, now: float, received: float) -> Outcome:
         """Return what this period brings.
 
         Args:
-            now: s, on the clock that commands and measurements were received by.
+            now: The time on the clock of the stamps, s.
+            received: The time on the clock that ages are judged by, s.
         """
         if self.mode is Mode.HOMING:
             return self._home()
         if self.mode is not Mode.FOLLOWING:
             return self._stand_still()
         try:
-            return self._follow(now)
+            return self._follow(self._commands.at(now), received)
         except WristError as error:
             return self._fail(str(error))
 
-    def _follow(self, now: float) -> Outcome:
-        commanded, fresh = self._commanded(now)
+    def _follow(self, command: Command | None, received: float) -> Outcome:
+        commanded, fresh = self._commanded(command, received)
         asked = commanded[-self.wrist.twist_size :]
         made = step(self.wrist, self.state, asked, self.settings.dt)
         self._moved = self._moved or any(made.joint_rates)
         self.state = made.state
-        if self._command is not None and fresh < 1.0 and any(self._command.twist):
+        if command is not None and fresh < 1.0 and any(command.twist):
             message = 'No fresh command: ramped to a stop; send commands again to go on.'
             return Outcome(WristState.STALE, made, commanded, message, True)
         message = sentence(self.wrist, made, asked)
         return Outcome(state_of(made, asked), made, commanded, message, True)
 
-    def _commanded(self, now: float) -> tuple[Twist, float]:
-        if self._command is None:
+    def _commanded(self, command: Command | None, received: float) -> tuple[Twist, float]:
+        if command is None:
             return STILL, 0.0
-        age = now - self._command.received
+        age = received - command.received
         fresh = freshness(age, self.settings.command_timeout, self.settings.stop_time)
-        vx, vy, vz, p, q, r = hand_twist(self._command, self.state.pose.quaternion)
+        vx, vy, vz, p, q, r = hand_twist(command, self.state.pose.quaternion)
         return (fresh * vx, fresh * vy, fresh * vz, fresh * p, fresh * q, fresh * r), fresh
 
     def _home(self) -> Outcome:
@@ -181,7 +183,7 @@ class Supervisor:
         if arrived(self.state, aim):
             self.state = start(self.wrist, aim)
             self.mode = Mode.FOLLOWING
-            self._command = None
+            self._commands.forget()
         message = 'Resetting: on the way back to initial_positions; commands do not count now.'
         return Outcome(WristState.TRACKING, made, STILL, message, True)
 

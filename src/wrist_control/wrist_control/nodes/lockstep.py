@@ -1,0 +1,130 @@
+"""A simulated clock that ticks only when every node has answered the tick before.
+
+Nodes in their own processes then give the same answer in every run, on any machine, to the last
+bit, and as fast as they can or as slowly as a person wants to watch.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from builtin_interfaces.msg import Time
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rosgraph_msgs.msg import Clock
+
+from wrist_control.errors import WristError
+
+# A tick is sent again after this long, s: a clock message may be lost.
+AGAIN = 0.1
+# While nodes are still finding each other a tick may go unanswered; then the next is tried, s.
+WARM_UP = 0.5
+# Simulated time starts here, s: zero would mean that there is no time yet.
+START = 10
+
+
+class NoAnswerError(WristError, TimeoutError):
+    """A node has not answered a tick."""
+
+
+class Lockstep:
+    """Ticks a clock and collects what nodes publish at each tick.
+
+    Attributes:
+        ticks: Number of the present tick.
+        heard: The messages stamped with each tick since `begin`, by topic.
+    """
+
+    def __init__(
+        self, node: Node, period: float, limit: float = 20.0, alive: Callable[[], None] = bool
+    ) -> None:
+        """Prepare a clock on the topic `clock` of a node's namespace.
+
+        Args:
+            node: Any node of the caller's; it is spun here while waiting.
+            period: Simulated time between ticks, s.
+            limit: How long a tick may stay unanswered, s.
+            alive: Called while waiting; raises when waiting has become useless.
+        """
+        self.ticks = -1
+        self.heard: dict[str, list[Any]] = {}
+        self._node = node
+        self._period_ns = round(period * 1e9)
+        self._limit = limit
+        self._alive = alive
+        self._latest: dict[str, Any] = {}
+        self._clock = node.create_publisher(Clock, 'clock', 10)
+        self._executor = SingleThreadedExecutor(context=node.context)
+        self._executor.add_node(node)
+
+    def listen(self, topics: Mapping[str, Any]) -> None:
+        """Wait from now on for these stamped topics, name to message type, at every tick."""
+        for topic, kind in topics.items():
+            self.heard[topic] = []
+            self._node.create_subscription(
+                kind, topic, lambda m, topic=topic: self._hear(topic, m), QoSProfile(depth=100)
+            )
+
+    def begin(self) -> None:
+        """Tick until everybody answers: nodes need a moment to find each other.
+
+        Raises:
+            NoAnswerError: Somebody never does, in one sentence.
+        """
+        end = time.monotonic() + self._limit
+        while True:
+            self.ticks += 1
+            silent = self._answered_within(WARM_UP)
+            if not silent:
+                return
+            if time.monotonic() > end:
+                raise self._no_answer(silent)
+
+    def tick(self) -> None:
+        """Go one period on, and wait until everybody has answered.
+
+        Raises:
+            NoAnswerError: Somebody did not, in one sentence.
+        """
+        self.ticks += 1
+        silent = self._answered_within(self._limit)
+        if silent:
+            raise self._no_answer(silent)
+        for topic, messages in self.heard.items():
+            messages.append(self._latest[topic])
+
+    def _answered_within(self, limit: float) -> list[str]:
+        """Send the present tick until everybody has answered; return who has not in time."""
+        end = time.monotonic() + limit
+        again = 0.0
+        while (silent := self._silent()) and time.monotonic() < end:
+            if time.monotonic() > again:
+                self._clock.publish(Clock(clock=self._now()))
+                again = time.monotonic() + AGAIN
+            self._alive()
+            self._executor.spin_once(timeout_sec=0.02)
+        return silent
+
+    def _no_answer(self, silent: list[str]) -> NoAnswerError:
+        return NoAnswerError(
+            f'Nothing came on {", ".join(silent)} within {self._limit:g} s; is the node that '
+            'publishes it running?'
+        )
+
+    def _hear(self, topic: str, message: Any) -> None:
+        self._latest[topic] = message
+
+    def _silent(self) -> list[str]:
+        now = self._now()
+        return [
+            topic
+            for topic in self.heard
+            if topic not in self._latest or self._latest[topic].header.stamp != now
+        ]
+
+    def _now(self) -> Time:
+        nanoseconds = START * 10**9 + self.ticks * self._period_ns
+        return Time(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)

@@ -1,0 +1,47 @@
+"""The newest message of a stream that was stamped before now: the same answer in every run."""
+
+from __future__ import annotations
+
+from typing import Generic, TypeVar
+
+Item = TypeVar('Item')
+
+
+class Newest(Generic[Item]):
+    """Holds back a message until time has passed its stamp, or until a newer one arrives.
+
+    Two processes that are woken by the same tick of a simulated clock race each other. With this
+    rule a message counts from the first step after its stamp, whoever is faster; and a sender
+    whose clock is ahead is one message late, never unheard.
+    """
+
+    def __init__(self) -> None:
+        """Start with no message."""
+        self._counting: Item | None = None
+        self._waiting: Item | None = None
+        self._stamp: float | None = None
+
+    def put(self, stamp: float | None, item: Item) -> None:
+        """Take a message.
+
+        Args:
+            stamp: s, None when it has none and so counts at once.
+            item: The message.
+        """
+        if self._waiting is not None:
+            self._counting = self._waiting
+        self._stamp, self._waiting = stamp, item
+
+    def at(self, now: float) -> Item | None:
+        """Return the newest message that counts now, None when there is none yet.
+
+        Args:
+            now: s, on the clock of the stamps.
+        """
+        if self._waiting is not None and (self._stamp is None or self._stamp < now):
+            self._counting, self._waiting = self._waiting, None
+        return self._counting
+
+    def forget(self) -> None:
+        """Drop every message."""
+        self._counting = self._waiting = None
