@@ -97,6 +97,18 @@ def extended_test(speed: float) -> Maneuver:
     return Maneuver('extended_test', (turn(1, QUARTER_TURN, speed), turn(2, math.tau, speed)))
 
 
+def pitch_then_roll(speed: float) -> Maneuver:
+    """Pitch by 40°, which lies inside every wrist's reach, then roll by a whole turn."""
+    pitch = turn(1, math.radians(40.0), speed)
+    return Maneuver('pitch_then_roll', (pitch, turn(0, math.tau, speed)))
+
+
+def roll_at_full_bend(speed: float) -> Maneuver:
+    """Pitch to the edge of a hemisphere, then roll by a whole turn."""
+    pitch = turn(1, QUARTER_TURN, speed)
+    return Maneuver('roll_at_full_bend', (pitch, turn(0, math.tau, speed)))
+
+
 def hold(speed: float) -> Maneuver:
     """Ask for nothing for two seconds."""
     return Maneuver('hold', (Segment(STILL, 2.0),))
@@ -119,6 +131,8 @@ def stick(speed: float, seed: int = 1, duration: float = 60.0) -> Maneuver:
 MANEUVERS: dict[str, Callable[[float], Maneuver]] = {
     'basic_test': basic_test,
     'extended_test': extended_test,
+    'pitch_then_roll': pitch_then_roll,
+    'roll_at_full_bend': roll_at_full_bend,
     'hold': hold,
     'stick': stick,
 }
