@@ -119,9 +119,13 @@ def _rows(
 ) -> tuple[list[Row], bool]:
     rows: list[Row] = []
     linear = (0.0,) * (wrist.twist_size - 3)
+    held_back = 0.0
     while state.time_lost <= patience:
-        time = len(rows) * dt - (state.time_lost if maneuver.waits else 0.0)
-        command = (*linear, *maneuver.rates(time, dt))
+        waited = held_back + state.time_lost if maneuver.waits else 0.0
+        time = len(rows) * dt - waited
+        order = maneuver.order(time, dt)
+        held_back += (1.0 - order.share) * dt
+        command = (*linear, *order.rates)
         made = step(wrist, state, command, dt)
         rows.append((state, command, made))
         if time >= maneuver.duration - 1e-9:

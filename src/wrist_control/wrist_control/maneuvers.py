@@ -26,6 +26,18 @@ class Segment(NamedTuple):
     duration: float
 
 
+class Order(NamedTuple):
+    """What to ask for now.
+
+    Attributes:
+        rates: p, q, r, rad/s.
+        share: How far the maneuver's clock advances for each second that this is followed.
+    """
+
+    rates: Vector
+    share: float
+
+
 @dataclass(frozen=True)
 class Maneuver:
     """Segments flown one after the other.
@@ -46,35 +58,24 @@ class Maneuver:
         """Time without any loss, s."""
         return sum(segment.duration for segment in self.segments)
 
-    def rates(self, time: float, dt: float) -> Vector:
-        """Return p, q, r to hold from a time on, rad/s; zero before and after the maneuver.
+    def order(self, time: float, dt: float) -> Order:
+        """Return what to ask for from a time on.
 
-        The mean over the holding time is returned, so that a segment that ends within it is
-        not overshot.
+        Where the operator waits for the hand, a segment that would end within the holding time
+        is flown slower, so that it ends exactly; the maneuver's clock then runs slower, too.
 
         Args:
-            time: s since the start.
+            time: The maneuver's own time since its start, s.
             dt: How long the command will be held, s.
         """
-        shares = []
-        begin = -time
+        left = -max(time, 0.0)
         for segment in self.segments:
-            end = begin + segment.duration
-            shares.append(_share(begin, end, dt))
-            begin = end
-        mean = [
-            sum(share * segment.rates[axis] for share, segment in zip(shares, self.segments, strict=True))
-            for axis in range(3)
-        ]
-        return (mean[0], mean[1], mean[2])
-
-
-def _share(begin: float, end: float, dt: float) -> float:
-    """Return the share of 0 to dt that lies between two times, without round-off's crumbs."""
-    shared = min(end, dt) - max(begin, 0.0)
-    if shared > dt - EARLY:
-        return 1.0
-    return shared / dt if shared > EARLY else 0.0
+            left += segment.duration
+            if left > EARLY:
+                share = min(1.0, left / dt) if self.waits and left < dt - EARLY else 1.0
+                p, q, r = segment.rates
+                return Order((share * p, share * q, share * r), share)
+        return Order(STILL, 1.0)
 
 
 def turn(axis: int, angle: float, speed: float) -> Segment:

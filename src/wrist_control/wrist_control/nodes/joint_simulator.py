@@ -17,6 +17,7 @@ from wrist_control.nodes.parameters import Spec, declare
 from wrist_control.nodes.qos import NEWEST, OUTPUT
 from wrist_control.nodes.running import run
 from wrist_control.resolving.commands import RefusedError
+from wrist_control.resolving.newest import Newest
 from wrist_control.simulation import follow
 from wrist_control.wrists import Joint
 
@@ -58,7 +59,7 @@ class JointSimulator(Node):
         self._values = declare(self, SPECS)
         self._joints: list[Joint] = []
         self._positions: list[float] = []
-        self._targets: list[float] = []
+        self._commands: Newest[list[float]] = Newest()
         if self._values['joints']:
             self._begin(self._values['joints'], None)
         self._diagnostics = Diagnostics(self, self._health)
@@ -87,7 +88,7 @@ class JointSimulator(Node):
                     f'{joint.upper:g} and rate limit {joint.rate_limit:g}; start it inside its '
                     'limits, with a rate limit above 0.'
                 )
-        self._joints, self._positions, self._targets = joints, list(positions), list(positions)
+        self._joints, self._positions = joints, list(positions)
 
     def _spread(self, parameter: str, names: list[str]) -> list[float]:
         values: list[float] = self._values[parameter]
@@ -100,13 +101,15 @@ class JointSimulator(Node):
 
     def _on_command(self, message: JointState) -> None:
         try:
-            self._take(list(message.name), [float(x) for x in message.position])
+            wanted = self._sorted(list(message.name), [float(x) for x in message.position])
         except RefusedError as error:
             self._diagnostics.refuse('joint_command', error)
         except InvalidValueError as error:
             self._diagnostics.refuse('joint_command', RefusedError('unusable', str(error)))
+        else:
+            self._commands.put(convert.seconds(message.header.stamp), wanted)
 
-    def _take(self, names: list[str], positions: list[float]) -> None:
+    def _sorted(self, names: list[str], positions: list[float]) -> list[float]:
         if len(names) != len(positions) or not names:
             raise RefusedError(
                 'wrong length',
@@ -124,19 +127,20 @@ class JointSimulator(Node):
                 f'Refused a command for {", ".join(names)}; these joints are {", ".join(known)}.',
             )
         wanted = dict(zip(names, positions, strict=True))
-        self._targets = [wanted[name] for name in known]
+        return [wanted[name] for name in known]
 
     def _tick(self) -> None:
         if not self._joints:
             return
-        dt = 1.0 / self._values['rate']
-        before = self._positions
+        now = self.get_clock().now()
+        before, dt = self._positions, 1.0 / self._values['rate']
+        targets = self._commands.at(convert.seconds_of(now.nanoseconds)) or before
         self._positions = [
             follow(joint, position, target, dt)
-            for joint, position, target in zip(self._joints, before, self._targets, strict=True)
+            for joint, position, target in zip(self._joints, before, targets, strict=True)
         ]
         rates = [(new - old) / dt for old, new in zip(before, self._positions, strict=True)]
-        header = Header(stamp=self.get_clock().now().to_msg())
+        header = Header(stamp=now.to_msg())
         names = [joint.name for joint in self._joints]
         self._publisher.publish(convert.joint_message(header, names, self._positions, rates))
 

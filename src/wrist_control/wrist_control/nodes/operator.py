@@ -64,13 +64,14 @@ class Operator(Node):
         self._check(self._values)
         self._began: float | None = None
         self._times_lost: Newest[float] = Newest()
-        self._lost_before = 0.0
+        self._lost_before = self._held_back = 0.0
+        self._period = 1.0 / self._values['rate']
         self._done = False
         watch(self, SPECS, self._check, self._values.update)
         self._diagnostics = Diagnostics(self, self._health)
         self._publisher = self.create_publisher(TwistStamped, 'cmd_vel', OUTPUT)
         self.create_subscription(WristStatus, 'wrist_status', self._on_status, NEWEST)
-        self.create_timer(1.0 / self._values['rate'], self._tick)
+        self.create_timer(self._period, self._tick)
 
     @staticmethod
     def _check(values: dict[str, Any]) -> None:
@@ -102,11 +103,13 @@ class Operator(Node):
             self._began, self._lost_before = now, time_lost
         time = now - self._began
         if self._maneuver.waits:
-            time -= max(0.0, time_lost - self._lost_before)
+            time -= max(0.0, time_lost - self._lost_before) + self._held_back
         if time >= self._maneuver.duration and not self._done:
             self._done = True
             self.get_logger().info(f'{self._maneuver.name} flown in {now - self._began:.2f} s.')
-        return self._maneuver.rates(time, 1.0 / self._values['rate'])
+        order = self._maneuver.order(time, self._period)
+        self._held_back += (1.0 - order.share) * self._period
+        return order.rates
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
         if self._maneuver is None:

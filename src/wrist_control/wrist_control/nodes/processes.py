@@ -1,0 +1,101 @@
+"""Nodes as processes of their own, in their own namespace, that never outlive their caller."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+
+from ament_index_python.packages import get_package_prefix, get_package_share_directory
+
+from wrist_control.errors import WristError
+
+PACKAGE = 'wrist_control'
+# A node that has not ended this long after it was asked to is killed, s.
+GRACE = 5.0
+
+
+class NodeEndedError(WristError, RuntimeError):
+    """A node has ended by itself."""
+
+
+def config_file(name: str) -> Path:
+    """Return a ready parameter file by name."""
+    return Path(get_package_share_directory(PACKAGE)) / 'config' / name
+
+
+class NodeProcesses:
+    """Starts nodes on a private clock, and ends all of them when the block is left.
+
+    Attributes:
+        namespace: Where their topics are: no other graph on this machine is disturbed.
+    """
+
+    def __init__(self, name: str, files: Sequence[Path]) -> None:
+        """Prepare a namespace.
+
+        Args:
+            name: Beginning of the namespace.
+            files: Parameter files for every node.
+        """
+        self.namespace = f'/{name}_{os.getpid()}'
+        self._files = files
+        self._running: dict[str, subprocess.Popen] = {}
+
+    def start(self, executable: str, parameters: Mapping[str, object]) -> None:
+        """Start a node of this package.
+
+        Args:
+            executable: Its name under lib/wrist_control.
+            parameters: Values that win over the files.
+        """
+        remaps = [f'__ns:={self.namespace}']
+        remaps += [f'/{topic}:={self.namespace}/{topic}' for topic in ('clock', 'diagnostics')]
+        values = [f'{name}:={_text(value)}' for name, value in parameters.items()]
+        command = [str(Path(get_package_prefix(PACKAGE)) / 'lib' / PACKAGE / executable)]
+        command += ['--ros-args', *_each('-r', remaps), '--log-level', 'warn']
+        command += [*_each('--params-file', map(str, self._files)), *_each('-p', values)]
+        # In a group of their own, so that Ctrl-C reaches the caller alone, who ends them in order.
+        self._running[executable] = subprocess.Popen(command, start_new_session=True)
+
+    def check(self) -> None:
+        """Raise NodeEndedError if a node is gone."""
+        for executable, process in self._running.items():
+            if process.poll() is not None:
+                raise NodeEndedError(
+                    f'{executable} ended with exit code {process.returncode}; it says why above.'
+                )
+
+    def __enter__(self) -> NodeProcesses:
+        """Be told of SIGTERM as of Ctrl-C, so that the nodes are always ended."""
+        self._before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """End every node."""
+        for process in self._running.values():
+            process.terminate()
+        for process in self._running.values():
+            try:
+                process.wait(GRACE)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        signal.signal(signal.SIGTERM, self._before)
+
+
+def _each(flag: str, values: object) -> list[str]:
+    return [part for value in values for part in (flag, value)]
+
+
+def _text(value: object) -> str:
+    return '.inf' if value == float('inf') else str(value)

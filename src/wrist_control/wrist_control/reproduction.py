@@ -1,0 +1,95 @@
+"""Barker's figures 6, 7 and 8 in numbers: what the paper prints beside what was measured."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from wrist_control.flight import Flight
+
+# The probe pauses while it is this close to vertical, rad.
+NEAR_VERTICAL = math.radians(1.0)
+
+
+class Row(NamedTuple):
+    """One line of a table: what is measured, as printed, as measured."""
+
+    what: str
+    paper: str
+    measured: str
+
+
+def probe_direction(flight: Flight) -> np.ndarray:
+    """Return the unit vector along the probe in forearm axes, shape (n, 3)."""
+    along = flight.tip - flight.hand_position
+    return np.asarray(along / np.linalg.norm(along, axis=1, keepdims=True))
+
+
+def angle_from_vertical(flight: Flight) -> np.ndarray:
+    """Return the angle between the probe and straight down, rad, shape (n,)."""
+    x, y, z = probe_direction(flight).T
+    return np.arctan2(np.hypot(x, y), -z)
+
+
+def path_error(flight: Flight) -> float:
+    """Return the largest angle between the probe and the two arcs of Barker's figure 6, rad."""
+    x, y, _ = np.abs(probe_direction(flight).T)
+    return float(np.max(np.arcsin(np.minimum(1.0, np.minimum(x, y)))))
+
+
+def pause(flight: Flight) -> float:
+    """Return how much longer the probe stays near vertical than an unscaled one, s."""
+    near = flight.time[angle_from_vertical(flight) < NEAR_VERTICAL - 1e-9]
+    step = flight.time[1] - flight.time[0]
+    unscaled = near.min() + step  # one step in, one step out: 1° each
+    return float(near.max() - unscaled + step)
+
+
+def peak_rates(flight: Flight) -> np.ndarray:
+    """Return the largest real rate of each joint, deg/s, shape (joints,)."""
+    return np.asarray(np.degrees(np.abs(flight.joint_rates).max(axis=0)))
+
+
+def tip_error(flight: Flight, row: int, target: tuple[float, float, float]) -> float:
+    """Return how far the tip is from a point given in probe lengths, in probe lengths."""
+    return float(np.linalg.norm(probe_direction(flight)[row] - np.array(target)))
+
+
+def three_gimbal_table(unscaled: Flight, scaled: Flight) -> list[Row]:
+    """Return the table of figures 6, 7 and 8 for the basic test maneuver.
+
+    Args:
+        unscaled: Flown without rate limits at 1/32 s.
+        scaled: The same with every gimbal held to 32 deg/s.
+    """
+    lock = int(np.argmin(angle_from_vertical(unscaled)))
+    psi, _, phi = np.degrees(
+        unscaled.joint_positions[lock + 1] - unscaled.joint_positions[lock]
+    )
+    peak = peak_rates(unscaled)
+    h = unscaled.time[1] - unscaled.time[0]
+    return [
+        Row('fig. 6: probe vertical after', '2.8125 s', f'{unscaled.time[lock]:.4f} s'),
+        Row(
+            'fig. 6: tip there, from (0, 0, -6) in.',
+            '0 in.',
+            f'{6.0 * tip_error(unscaled, lock, (0, 0, -1)):.4f} in.',
+        ),
+        Row(
+            'fig. 6: tip at the end, from (0, 6, 0) in.',
+            '0 in.',
+            f'{6.0 * tip_error(unscaled, -1, (0, 1, 0)):.4f} in.',
+        ),
+        Row('fig. 7: ψ and φ change at lock by', '90°, 90°', f'{psi:.4f}°, {phi:.4f}°'),
+        Row('fig. 7: rate of ψ at lock', 'infinite', f'{peak[0]:.4f} deg/s = 90° / {h:.5f} s'),
+        Row('fig. 7: peak rate of θ', '32 deg/s', f'{peak[1]:.4f} deg/s'),
+        Row('fig. 7: path error', 'agrees exactly', f'{math.degrees(path_error(unscaled)):.4f}°'),
+        Row('fig. 8: pause between the two parts', 'about 2.8 s', f'{pause(scaled):.4f} s'),
+        Row('fig. 8: time lost, ∫(1 − F) dt', 'not printed', f'{scaled.time_lost[-1]:.4f} s'),
+        Row(
+            'fig. 8: peak rate of any gimbal', '32 deg/s', f'{peak_rates(scaled).max():.4f} deg/s'
+        ),
+        Row('fig. 8: path error', 'moves as desired', f'{math.degrees(path_error(scaled)):.4f}°'),
+    ]
