@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from builtin_interfaces.msg import Time
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock
@@ -35,11 +35,16 @@ class Lockstep:
 
     Attributes:
         ticks: Number of the present tick.
-        heard: The messages stamped with each tick since `begin`, by topic.
+        heard: Every message in the order it came, by topic; from `begin` on, one for each tick.
     """
 
     def __init__(
-        self, node: Node, period: float, limit: float = 20.0, alive: Callable[[], None] = bool
+        self,
+        node: Node,
+        period: float,
+        limit: float = 20.0,
+        alive: Callable[[], object] = bool,
+        executor: Executor | None = None,
     ) -> None:
         """Prepare a clock on the topic `clock` of a node's namespace.
 
@@ -48,6 +53,7 @@ class Lockstep:
             period: Simulated time between ticks, s.
             limit: How long a tick may stay unanswered, s.
             alive: Called while waiting; raises when waiting has become useless.
+            executor: Spun while waiting, when the node is in one already.
         """
         self.ticks = -1
         self.heard: dict[str, list[Any]] = {}
@@ -55,17 +61,17 @@ class Lockstep:
         self._period_ns = round(period * 1e9)
         self._limit = limit
         self._alive = alive
-        self._latest: dict[str, Any] = {}
         self._clock = node.create_publisher(Clock, 'clock', 10)
-        self._executor = SingleThreadedExecutor(context=node.context)
-        self._executor.add_node(node)
+        self._executor = executor or SingleThreadedExecutor(context=node.context)
+        if executor is None:
+            self._executor.add_node(node)
 
     def listen(self, topics: Mapping[str, Any]) -> None:
         """Wait from now on for these stamped topics, name to message type, at every tick."""
         for topic, kind in topics.items():
             self.heard[topic] = []
             self._node.create_subscription(
-                kind, topic, lambda m, topic=topic: self._hear(topic, m), QoSProfile(depth=100)
+                kind, topic, self.heard[topic].append, QoSProfile(depth=100)
             )
 
     def begin(self) -> None:
@@ -93,8 +99,6 @@ class Lockstep:
         silent = self._answered_within(self._limit)
         if silent:
             raise self._no_answer(silent)
-        for topic, messages in self.heard.items():
-            messages.append(self._latest[topic])
 
     def _answered_within(self, limit: float) -> list[str]:
         """Send the present tick until everybody has answered; return who has not in time."""
@@ -114,15 +118,12 @@ class Lockstep:
             'publishes it running?'
         )
 
-    def _hear(self, topic: str, message: Any) -> None:
-        self._latest[topic] = message
-
     def _silent(self) -> list[str]:
         now = self._now()
         return [
             topic
-            for topic in self.heard
-            if topic not in self._latest or self._latest[topic].header.stamp != now
+            for topic, messages in self.heard.items()
+            if not messages or messages[-1].header.stamp != now
         ]
 
     def _now(self) -> Time:

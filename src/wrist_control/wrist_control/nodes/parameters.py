@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
-from rclpy.exceptions import InvalidParameterValueException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
@@ -103,11 +102,13 @@ def checked(spec: Spec, value: object) -> Any:
 
 
 def _declare_one(node: Node, spec: Spec) -> Any:
-    try:
-        given = node.declare_parameter(spec.name, spec.default, _descriptor(spec)).value
-    except InvalidParameterValueException as error:
-        raise InvalidValueError(_wrong(spec, error.value)) from error
-    return checked(spec, given)
+    # Declared loosely, so that a bad value is answered here and not by rclpy's own exceptions.
+    given = node.declare_parameter(
+        spec.name, spec.default, ParameterDescriptor(dynamic_typing=True)
+    )
+    value = checked(spec, given.value)
+    node.set_descriptor(spec.name, _descriptor(spec))
+    return value
 
 
 def _descriptor(spec: Spec) -> ParameterDescriptor:

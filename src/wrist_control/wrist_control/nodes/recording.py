@@ -26,29 +26,43 @@ def recorded_flight(
         wrist: The mechanism.
         maneuver: What was flown.
         dt: Time between ticks, s.
-        heard: `wrist_status`, `joint_command` and `joint_states` of the same ticks.
+        heard: `wrist_status`, `joint_command` and `joint_states`, equally stamped at each tick.
     """
-    commands = [convert.twist_values(status.commanded) for status in heard['wrist_status']]
-    moving = [row for row, command in enumerate(commands) if any(command)]
-    rows = range(moving[0], moving[-1] + 2)
-    statuses = [heard['wrist_status'][row] for row in rows]
-    positions = np.array([heard['joint_states'][row].position for row in rows])
+    statuses = _moving(heard['wrist_status'])
+    commands = _stamped_like(statuses, heard['joint_command'])
+    states = _stamped_like(statuses, heard['joint_states'])
+    positions = np.array([state.position for state in states])
     poses = [wrist.forward(tuple(row)) for row in positions.tolist()]
     where = np.array([pose.position for pose in poses])
+    factor = np.array([status.scale_factor for status in statuses])
+    asked = np.array([convert.twist_values(status.commanded) for status in statuses])
     return Flight(
         wrist=wrist,
         maneuver=maneuver,
-        time=dt * np.arange(len(rows)),
-        command=np.array([commands[row][-wrist.twist_size :] for row in rows]),
+        time=dt * np.arange(len(statuses)),
+        command=asked[:, -wrist.twist_size :],
         achieved=np.array([convert.twist_values(status.achieved) for status in statuses]),
         joint_positions=positions,
-        joint_rates=np.array([heard['joint_command'][row].velocity for row in rows]),
+        joint_rates=np.array([command.velocity for command in commands]),
         hand_rotation=np.array([pose.rotation for pose in poses]),
         hand_position=where,
         tip=where + np.array([to_forearm(pose.quaternion, PROBE) for pose in poses]),
-        scale_factor=np.array([status.scale_factor for status in statuses]),
-        time_lost=np.array([heard['wrist_status'][row - 1].time_lost for row in rows]),
+        scale_factor=factor,
+        time_lost=np.array([status.time_lost for status in statuses]) - (1.0 - factor) * dt,
         margin=np.array([status.margin for status in statuses]),
         limited=tuple(tuple(limit.joint for limit in status.limits) for status in statuses),
         completed=True,
     )
+
+
+def _moving(statuses: Sequence[Any]) -> Sequence[Any]:
+    """Return the statuses from the first followed command to the first zero after the last."""
+    rows = [
+        row for row, status in enumerate(statuses) if any(convert.twist_values(status.commanded))
+    ]
+    return statuses[rows[0] : rows[-1] + 2]
+
+
+def _stamped_like(statuses: Sequence[Any], messages: Sequence[Any]) -> list[Any]:
+    by_stamp = {convert.seconds(message.header.stamp): message for message in messages}
+    return [by_stamp[convert.seconds(status.header.stamp)] for status in statuses]

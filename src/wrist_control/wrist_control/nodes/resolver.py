@@ -9,7 +9,6 @@ from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.clock import Clock, ClockType
-from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
@@ -22,6 +21,7 @@ from wrist_control.nodes.qos import NEWEST
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import limited, settings, specs
 from wrist_control.nodes.running import run
+from wrist_control.nodes.wrong_types import WrongTypes
 from wrist_control.resolving.commands import RefusedError, accept
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.supervisor import Outcome, Supervisor
@@ -32,6 +32,11 @@ LEVELS = {
     WristState.SINGULAR: WARN,
     WristState.STALE: WARN,
     WristState.FAULT: ERROR,
+}
+TYPES = {
+    'cmd_vel': 'geometry_msgs/msg/TwistStamped',
+    'cmd_vel_unstamped': 'geometry_msgs/msg/Twist',
+    'joint_states': 'sensor_msgs/msg/JointState',
 }
 
 
@@ -61,6 +66,7 @@ class Resolver(Node):
             self._ages = self.get_clock()
         watch(self, wanted, self._check, self._apply)
         self._diagnostics = Diagnostics(self, self._health)
+        self._wrong_types = WrongTypes(self, TYPES)
         self._listen()
         self.create_timer(1.0 / self._values['rate'], self._tick)
 
@@ -69,19 +75,11 @@ class Resolver(Node):
         return made(**{name: self._values[name] for name in made.dimensions()})
 
     def _listen(self) -> None:
-        self._subscribe(TwistStamped, 'cmd_vel', self._on_stamped)
-        self._subscribe(Twist, 'cmd_vel_unstamped', self._on_unstamped)
-        self._subscribe(JointState, 'joint_states', self._on_joint_states)
+        self.create_subscription(TwistStamped, 'cmd_vel', self._on_stamped, NEWEST)
+        self.create_subscription(Twist, 'cmd_vel_unstamped', self._on_unstamped, NEWEST)
+        self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
         self.create_service(SetBool, '~/enable', self._on_enable)
         self.create_service(Trigger, '~/reset', self._on_reset)
-
-    def _subscribe(self, kind: Any, topic: str, callback: Any) -> None:
-        name = f'{kind.__module__.split(".")[0]}/{kind.__name__}'
-        sentence = f'Somebody publishes {topic} with another type; it must be {name}.'
-        events = SubscriptionEventCallbacks(
-            incompatible_type=lambda _: self.get_logger().error(sentence)
-        )
-        self.create_subscription(kind, topic, callback, NEWEST, event_callbacks=events)
 
     def _on_stamped(self, message: TwistStamped) -> None:
         stamp = convert.seconds(message.header.stamp)
@@ -155,7 +153,11 @@ class Resolver(Node):
             'time lost': f'{outcome.made.state.time_lost:.4f} s',
             'margin': f'{outcome.made.margin:.4f}',
         }
-        return LEVELS.get(outcome.wrist_state, OK), outcome.message, values
+        level = LEVELS.get(outcome.wrist_state, OK)
+        for (publisher, topic), sentence in self._wrong_types.found.items():
+            values[f'{publisher} on {topic}'] = sentence
+            level = max(level, WARN)
+        return level, outcome.message, values
 
     @staticmethod
     def _seconds(clock: Clock) -> float:

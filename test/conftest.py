@@ -1,0 +1,118 @@
+"""A real ROS graph for each test, in a domain of its own."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+from wrist_control.nodes.lockstep import Lockstep
+
+DOMAINS_PER_WORKER = 45
+_count = itertools.count()
+
+
+def next_domain() -> int:
+    """Return a ROS domain that no other test of this run uses at the same time."""
+    worker = int(os.environ.get('PYTEST_XDIST_WORKER', 'gw0').removeprefix('gw')) % 2
+    return 10 + worker * DOMAINS_PER_WORKER + next(_count) % DOMAINS_PER_WORKER
+
+
+class Graph:
+    """The nodes of one test, wired by one executor.
+
+    Attributes:
+        domain: Its ROS domain.
+        outside: A node that stands for everybody else: publishes and listens by topic only.
+    """
+
+    def __init__(self) -> None:
+        self.domain = next_domain()
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context, domain_id=self.domain)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self._nodes: list[Node] = []
+        self.outside = self.add(rclpy.create_node('outside', context=self.context))
+
+    def add(self, node: Node) -> Node:
+        self._nodes.append(node)
+        self.executor.add_node(node)
+        return node
+
+    def start(self, kind: Callable[..., Node], *arguments: str, **parameters: Any) -> Node:
+        """Start one of our nodes with parameters; `namespace` is not a parameter."""
+        namespace = parameters.pop('namespace', '')
+        overrides = [rclpy.Parameter(name, value=value) for name, value in parameters.items()]
+        node = kind(
+            *arguments,
+            namespace=namespace,
+            context=self.context,
+            parameter_overrides=overrides,
+            use_global_arguments=False,
+        )
+        return self.add(node)
+
+    def listen(self, kind: Any, topic: str) -> list[Any]:
+        """Return a list that grows with everything heard on a topic."""
+        heard: list[Any] = []
+        self.outside.create_subscription(kind, topic, heard.append, QoSProfile(depth=100))
+        return heard
+
+    def publisher(self, kind: Any, topic: str, listeners: int = 1) -> Any:
+        """Return a publisher that has found its subscribers."""
+        publisher = self.outside.create_publisher(kind, topic, 10)
+        self.until(lambda: publisher.get_subscription_count() >= listeners)
+        return publisher
+
+    def call(self, kind: Any, service: str, request: Any) -> Any:
+        """Call a service and return its answer."""
+        client = self.outside.create_client(kind, service)
+        self.until(client.service_is_ready)
+        future = client.call_async(request)
+        self.until(future.done)
+        return future.result()
+
+    def until(self, condition: Callable[[], object], limit: float = 20.0) -> None:
+        """Spin until something is true."""
+        end = time.monotonic() + limit
+        while not condition():
+            assert time.monotonic() < end, f'not within {limit} s'
+            self.executor.spin_once(timeout_sec=0.05)
+
+    def spin(self, seconds: float) -> None:
+        """Spin for a while."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def lockstep(self, period: float) -> Lockstep:
+        """Return a clock for nodes that use simulated time."""
+        return Lockstep(self.outside, period, executor=self.executor)
+
+    def close(self) -> None:
+        for node in self._nodes:
+            self.executor.remove_node(node)
+            node.destroy_node()
+        self.executor.shutdown()
+        rclpy.shutdown(context=self.context)
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    made = Graph()
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def process_environment() -> dict[str, str]:
+    """The environment for a test's own processes, in a domain of their own."""
+    return {**os.environ, 'ROS_DOMAIN_ID': str(next_domain())}

@@ -1,0 +1,113 @@
+"""Every parameter is described, ranged and checked; a bad value gets one sentence."""
+
+import math
+
+import pytest
+import rclpy
+from rcl_interfaces.srv import SetParametersAtomically
+
+from wrist_control import WRISTS, WristError
+from wrist_control.nodes.joint_simulator import JointSimulator
+from wrist_control.nodes.operator import Operator
+from wrist_control.nodes.resolver import Resolver
+from wrist_interfaces.msg import WristStatus
+
+OWN = {'use_sim_time', 'start_type_description_service'}  # rclpy's
+
+
+def described(node):
+    names = node.get_parameters_by_prefix('')
+    return {name: node.describe_parameter(name) for name in names if name not in OWN}
+
+
+@pytest.mark.parametrize('wrist', WRISTS)
+def test_every_resolver_parameter_says_what_it_is_and_what_is_valid(graph, wrist):
+    for name, descriptor in described(graph.start(Resolver, wrist)).items():
+        assert descriptor.description, name
+        assert descriptor.additional_constraints.startswith('valid: '), name
+
+
+@pytest.mark.parametrize('kind', [Operator, JointSimulator])
+def test_every_other_parameter_says_what_it_is_and_what_is_valid(graph, kind):
+    for name, descriptor in described(graph.start(kind)).items():
+        assert descriptor.description, name
+        assert descriptor.additional_constraints.startswith('valid: '), name
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'sentence'),
+    [
+        ({'rate': 0.0}, r'rate is 0.0; valid is 1 to 2000 Hz'),
+        ({'rate': 'fast'}, r"rate is 'fast'; valid is 1 to 2000 Hz"),
+        ({'command_timeout': math.nan}, r'command_timeout is nan; valid is 0.01 to 10 s'),
+        ({'joint_rate_limits': [1.0, 2.0]}, r'joint_rate_limits has 2 values; give 1 for all'),
+        ({'joint_rate_limits': [0.0]}, r'must be above 0'),
+        ({'joint_lower_limits': [1.0], 'joint_upper_limits': [-1.0]}, r'limits of psi cross'),
+        ({'initial_positions': [0.0, 0.0]}, r'initial_positions has 2 values; give one for each'),
+        ({'initial_positions': [0.0, math.pi / 2, 0.0]}, r'are at lock'),
+        (
+            {'initial_positions': [2.0, 0.0, 0.0], 'joint_upper_limits': [1.0]},
+            r'initial_positions has 2 for psi; valid is',
+        ),
+    ],
+)
+def test_a_resolver_refuses_to_start_with_a_bad_value(graph, parameters, sentence):
+    with pytest.raises(WristError, match=sentence):
+        graph.start(Resolver, 'three_gimbal', **parameters)
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'sentence'),
+    [
+        ({'maneuver': 'loop'}, r"maneuver is 'loop'; valid is one of basic_test"),
+        ({'speed': -1.0}, r'speed is -1.0; valid is'),
+        ({'constant_rates': [1.0]}, r'constant_rates has 1 values; give three'),
+    ],
+)
+def test_an_operator_refuses_to_start_with_a_bad_value(graph, parameters, sentence):
+    with pytest.raises(WristError, match=sentence):
+        graph.start(Operator, **parameters)
+
+
+def test_whole_numbers_and_single_values_are_as_good_as_decimals_and_lists(graph):
+    node = graph.start(Resolver, 'three_gimbal', rate=50, joint_rate_limits=2)
+    assert node.get_parameter('rate').value == 50
+
+
+def changed(graph, **parameters):
+    request = SetParametersAtomically.Request(
+        parameters=[rclpy.Parameter(n, value=v).to_parameter_msg() for n, v in parameters.items()]
+    )
+    service = 'three_gimbal_resolver/set_parameters_atomically'
+    return graph.call(SetParametersAtomically, service, request).result
+
+
+def test_a_limit_can_change_while_the_node_runs_and_a_bad_one_changes_nothing(graph):
+    node = graph.start(Resolver, 'three_gimbal')
+    assert changed(graph, joint_rate_limits=[0.2]).successful
+    refused = changed(graph, joint_rate_limits=[0.3, -1.0, 0.3])
+    assert not refused.successful
+    assert 'joint_rate_limits is -1.0; valid is' in refused.reason
+    assert list(node.get_parameter('joint_rate_limits').value) == [0.2]
+    crossed = changed(graph, joint_upper_limits=[-math.inf])
+    assert not crossed.successful
+    assert 'cross' in crossed.reason
+
+
+def test_what_must_not_change_while_the_node_runs_does_not(graph):
+    graph.start(Resolver, 'three_gimbal')
+    assert not changed(graph, rate=50.0).successful
+
+
+def test_a_changed_limit_is_at_work_in_the_next_steps(graph):
+    graph.start(Resolver, 'three_gimbal')
+    statuses = graph.listen(WristStatus, 'wrist_status')
+    graph.start(Operator, maneuver='constant', constant_rates=[0.3, 0.0, 0.0])
+    graph.until(lambda: statuses and statuses[-1].state == WristStatus.TRACKING)
+    assert changed(graph, joint_rate_limits=[0.1]).successful
+    graph.until(lambda: statuses[-1].state == WristStatus.SCALED)
+    assert statuses[-1].scale_factor == pytest.approx(1.0 / 3.0)
+    limit = statuses[-1].limits[0]
+    assert (limit.joint, limit.kind) == ('phi', limit.RATE)
+    assert limit.asked == pytest.approx(0.3)
+    assert limit.allowed == pytest.approx(0.1)
