@@ -308,3 +308,10 @@ def test_resolver_reports_the_roll_that_is_forced_and_not_the_one_commanded():
 def test_bad_dimensions_are_refused_with_what_is_valid(dimensions, sentence):
     with pytest.raises(InvalidValueError, match=sentence):
         make_wrist('carpal', **dimensions)
+
+
+def test_a_long_step_cannot_jump_over_the_half_turn():
+    wrist = Carpal(plunge=0.05)
+    pose = wrist.advance(wrist.forward(wrist.home), (0.0, math.radians(175.0), 0.0), 1.0)
+    with pytest.raises(UnreachableError, match='half turn'):
+        wrist.advance(pose, (0.0, math.radians(10.0), 0.0), 1.0)

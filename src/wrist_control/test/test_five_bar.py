@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from wrist_control import UnreachableError, fly
 from wrist_control.maneuvers import Maneuver, Segment
-from wrist_control.resolving import LimitKind
 from wrist_control.rotations import Pose, about_z, product, rates_between
 from wrist_control.wrists.five_bar import EDGE, FiveBar
 
@@ -107,4 +106,9 @@ def test_equator_is_neared_without_overshoot_and_left_freely(heading, limit):
 def test_edge_is_named():
     there = Maneuver('x', (Segment((1.0, 0.3, 0.0), 2.5),), waits=False)
     assert fly(WRIST, there).limited[-2] == ('equator',)
-    assert LimitKind.WORKSPACE.name == 'WORKSPACE'
+
+
+def test_a_long_step_cannot_jump_over_the_equator():
+    pose = WRIST.forward((math.radians(85.0), 0.0))
+    with pytest.raises(UnreachableError, match='equator'):
+        WRIST.advance(pose, (0.0, 1.0, 0.0), math.radians(10.0))

@@ -139,14 +139,17 @@ class Carpal(Wrist):
 
         N̂ is the midplane's upward unit normal and p_d the plunge, m.
         """
-        nodes, normal, area, lifts = self._midplane(positions)
-        m, n = np.array(nodes), np.array(normal)
-        edges = np.roll(m, -2, axis=0) - np.roll(m, -1, axis=0)
-        pivot = np.array([0.0, 0.0, n @ m[0] / n[2]])
-        shares = np.cross(np.roll(m, -1, axis=0) - pivot, np.roll(m, -2, axis=0) - pivot) @ n
-        turning = np.copysign(1.0, n[2]) * np.cross(edges, n)
-        rows = np.array([turning[:, 0], turning[:, 1], shares / n[2]])
-        return np.array(lifts) / area * rows
+        (a, b, c), (x, y, z), area, lifts = self._midplane(positions)
+        pivot = (0.0, 0.0, (x * a[0] + y * a[1] + z * a[2]) / z)
+        columns = []
+        for lift, begin, end in zip(lifts, (b, c, a), (c, a, b), strict=True):
+            gain = lift / area
+            turning = _cross(_from(begin, end), (x, y, z))
+            share = _cross(_from(pivot, begin), _from(pivot, end))
+            plunging = (x * share[0] + y * share[1] + z * share[2]) / z
+            upward = gain if z > 0.0 else -gain
+            columns.append((upward * turning[0], upward * turning[1], gain * plunging))
+        return np.array(columns).T
 
     def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
         """Return θ̇1, θ̇2, θ̇3 that make p and q and hold the plunge; r is not free."""
@@ -165,10 +168,15 @@ class Carpal(Wrist):
         """Return the pose after p and q for a time, exactly, the plunge held.
 
         The forced r = (n_x p + n_y q) / n_z does not change while p and q do not.
+
+        Raises:
+            UnreachableError: The tilt would reach half a turn.
         """
         z, _, x, minus_y = pose.quaternion
         p, q = twist[0], twist[1]
         a1, _, a3, a4 = turned(pose.quaternion, (p, q, (x * p - minus_y * q) / z), dt)
+        if a1 * z <= 0.0:
+            raise UnreachableError(EDGES[3])
         z1, _, x1, minus_y1 = unit((a1, 0.0, a3, a4))
         px, py, pz = pose.position
         reach = (x * px - minus_y * py + z * pz) * z1 / z

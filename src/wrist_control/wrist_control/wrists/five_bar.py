@@ -16,7 +16,7 @@ from typing import ClassVar
 import numpy as np
 
 from wrist_control.errors import UnreachableError
-from wrist_control.rotations import Pose, nearest_turn
+from wrist_control.rotations import Pose, direction_cosines, nearest_turn
 from wrist_control.wrists.pitch_yaw import PitchYaw
 from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist
 
@@ -78,8 +78,15 @@ class FiveBar(Wrist):
         return (Clearance('equator', self.margin(positions) - EDGE, HORIZON),)
 
     def advance(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
-        """Return the pose after p and q for a time: the same hand as the pitch-yaw pointer's."""
-        return SERIAL.advance(pose, twist, dt)
+        """Return the pose after p and q for a time: the same hand as the pitch-yaw pointer's.
+
+        Raises:
+            UnreachableError: The hand would cross the equator.
+        """
+        after = SERIAL.advance(pose, twist, dt)
+        if _height(pose) * _height(after) <= 0.0:
+            raise UnreachableError('equator')
+        return after
 
     @staticmethod
     def _serial(positions: Sequence[float]) -> tuple[float, float]:
@@ -97,3 +104,8 @@ class FiveBar(Wrist):
         s2, c2 = math.sin(positions[1]), math.cos(positions[1])
         square = c2 * c2 + s2 * s2 * c1 * c1
         return (s1 * s2 * c2 / square, -c1 / square)
+
+
+def _height(pose: Pose) -> float:
+    """Return N_z, the hand's z axis along the forearm's."""
+    return direction_cosines(pose.quaternion)[2][2]
