@@ -66,7 +66,7 @@ def test_the_bound_is_never_below_the_exact_norm(pose):
     exact = exact_beta(at, quadratics.right_side(KNOWN, WRIST.held(pose)))
     bound = quadratics.beta(KNOWN, at, rows)
     assert bound >= exact
-    assert bound <= 12.0 * exact
+    assert bound <= 30.0 * exact
 
 
 @given(poses)
@@ -170,8 +170,7 @@ def test_a_spoiled_answer_is_not_given_a_small_error(spoil):
     pose = Pose(turned(IDENTITY, (0.1, 0.2, 0.3), 1.0), (0.02, 0.01, 0.42))
     right = quadratics.right_side(KNOWN, WRIST.held(pose))
     at = stages.unknowns(pose, SIZE)
-    wrong = tracking._point(right, KNOWN, at[2] + spoil, at[4], at[5], at[6])
-    e = quadratics.entries(wrong)
+    wrong, *e = quadratics.point(right, KNOWN.free, at[2] + spoil, at[4], at[5], 1.0)
     left = math.sqrt(e[0] ** 2 + 2 * e[1] ** 2 + e[2] ** 2)
     track = tracking._proved(
         KNOWN, wrong, at, 0, wrong, quadratics.inverse(KNOWN.free, wrong), left

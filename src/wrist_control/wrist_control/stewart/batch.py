@@ -16,9 +16,8 @@ from wrist_control.stewart.quadratics import (
     Nine,
     Three,
     beta,
-    dependents,
-    entries,
     inverse,
+    point,
 )
 from wrist_control.stewart.stages import Track
 from wrist_control.stewart.tracking import LOW, MOST_CORRECTIONS, ROUNDING, SHARP
@@ -140,15 +139,12 @@ def solve(known: Coefficients, lengths: Array, start: Array) -> Tracks:
 
 def newton(known: Coefficients, right: Array, start: Array) -> Roots:
     """Make Newton steps until rounding is all that is left in every row that converges."""
-    u1, u2, v2, side = start[2], start[4], start[5], start[6]
+    u1, u2, v2, side = start[2], start[4], start[5], np.copysign(1.0, start[6])
     floor = ROUNDING * (1.0 + np.abs(right[3]))
     iterations = np.full(right.shape[1], MOST_CORRECTIONS)
     last: Array | None = None
     for count in range(MOST_CORRECTIONS):
-        x, y, v1, square, zu, zv = dependents(tuple(right), known.free, u1, u2, v2)
-        z = np.copysign(np.sqrt(square), side)
-        at = (x, y, u1, v1, u2, v2, z, zu / z, zv / z)
-        e22, e23, e33 = entries(at)
+        at, e22, e23, e33 = point(tuple(right), known.free, u1, u2, v2, side)
         left = np.sqrt(e22 * e22 + 2.0 * e23 * e23 + e33 * e33)
         ended = ~(left > 0.125 * floor)  # rows without a root hold nan, and end as well
         if last is not None:

@@ -82,8 +82,12 @@ def coefficients(platform: Anchors, base: Anchors, size: float) -> Coefficients 
     )
 
 
-def dependents(right: Six[Number], free: Free, u1: Number, u2: Number, v2: Number) -> Six[Number]:
-    """Return x, y, v₁, and z², z u₃, z v₃, at some t.
+def point(
+    right: Six[Number], free: Free, u1: Number, u2: Number, v2: Number, side: Number
+) -> tuple[Nine[Number], Number, Number, Number]:
+    """Return all unknowns at some t, with E's first row zero, and its entries 22, 23 and 33.
+
+    Where the lengths leave no room for the height, a float's answer is complex, an array's nan.
 
     Args:
         right: What the lengths say: x, y, v₁, s, m, n where t is zero.
@@ -91,26 +95,18 @@ def dependents(right: Six[Number], free: Free, u1: Number, u2: Number, v2: Numbe
         u1: Of the three unknowns t, the first;
         u2: the second;
         v2: and the third.
+        side: 1 above the base, −1 below.
     """
     x, y, v1, s, m, n = right
     (a1, a2, a3), (b1, b2, b3), (c1, c2, c3), (d1, d2, d3), (e1, e2, e3), (f1, f2, f3) = free
     x = x + a1 * u1 + a2 * u2 + a3 * v2
     y = y + b1 * u1 + b2 * u2 + b3 * v2
     v1 = v1 + c1 * u1 + c2 * u2 + c3 * v2
+    z = side * (s + d1 * u1 + d2 * u2 + d3 * v2 - x * x - y * y) ** 0.5
+    u3 = (m + e1 * u1 + e2 * u2 + e3 * v2 - x * u1 - y * u2) / z
+    v3 = (n + f1 * u1 + f2 * u2 + f3 * v2 - x * v1 - y * v2) / z
     return (
-        x,
-        y,
-        v1,
-        s + d1 * u1 + d2 * u2 + d3 * v2 - x * x - y * y,
-        m + e1 * u1 + e2 * u2 + e3 * v2 - x * u1 - y * u2,
-        n + f1 * u1 + f2 * u2 + f3 * v2 - x * v1 - y * v2,
-    )
-
-
-def entries(at: Nine[Number]) -> Three[Number]:
-    """Return the entries 22, 23 and 33 of E; the first row is zero by the choice of h."""
-    _, _, u1, v1, u2, v2, _, u3, v3 = at
-    return (
+        (x, y, u1, v1, u2, v2, z, u3, v3),
         1.0 - u1 * u1 - u2 * u2 - u3 * u3,
         -u1 * v1 - u2 * v2 - u3 * v3,
         1.0 - v1 * v1 - v2 * v2 - v3 * v3,

@@ -10,9 +10,8 @@ from wrist_control.stewart.quadratics import (
     Six,
     Three,
     beta,
-    dependents,
-    entries,
     inverse,
+    point,
 )
 from wrist_control.stewart.stages import Track, Unknowns
 
@@ -35,14 +34,14 @@ def solve(known: Coefficients, right: Six[float], start: Unknowns) -> Track | No
     """
     if not leads(start):
         return None
-    _, _, u1, _, u2, v2, side, _, _ = start
+    _, _, u1, _, u2, v2, z, _, _ = start
+    side = math.copysign(1.0, z)
     free = known.free
     floor = ROUNDING * (1.0 + abs(right[3]))
     origin, rows, last = start, None, math.inf
     try:
         for count in range(MOST_CORRECTIONS):
-            at = _point(right, known, u1, u2, v2, side)
-            e22, e23, e33 = entries(at)
+            at, e22, e23, e33 = point(right, free, u1, u2, v2, side)
             left = math.sqrt(e22 * e22 + 2.0 * e23 * e23 + e33 * e33)
             if left <= 0.125 * floor or (floor > left > 0.5 * last):
                 if rows is None:
@@ -55,17 +54,9 @@ def solve(known: Coefficients, right: Six[float], start: Unknowns) -> Track | No
             u2 -= b1 * e22 + b2 * e23 + b3 * e33
             v2 -= c1 * e22 + c2 * e23 + c3 * e33
             last = left
-    except (ArithmeticError, ValueError):  # no room for the height, or a lock
+    except (ArithmeticError, TypeError):  # a lock, or no room for the height: it is complex
         pass
     return None
-
-
-def _point(
-    right: Six[float], known: Coefficients, u1: float, u2: float, v2: float, side: float
-) -> Unknowns:
-    x, y, v1, square, zu, zv = dependents(right, known.free, u1, u2, v2)
-    z = math.copysign(math.sqrt(square), side)
-    return (x, y, u1, v1, u2, v2, z, zu / z, zv / z)
 
 
 def _proved(
