@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -51,6 +51,7 @@ def test_the_room_is_that_of_a_cone_about_the_forearm(positions):
     assert cone.room == pytest.approx(cos_bend - math.cos(math.radians(45.0)), abs=1e-12)
 
 
+@settings(max_examples=50, deadline=None)
 @given(st.floats(-3.1, 3.1), commands)
 def test_the_hand_never_leaves_the_cone_and_can_always_come_back(azimuth, push):
     assume(max(map(abs, push)) > 0.1)
@@ -70,6 +71,16 @@ def test_the_hand_never_leaves_the_cone_and_can_always_come_back(azimuth, push):
         state = pushed.state
     back = step(wrist, made.state, tuple(-x for x in out), 0.05)
     assert back.scale_factor == 1.0
+
+
+def test_on_the_cone_a_command_that_leads_barely_inward_still_moves():
+    """A whole step would curve back out of the cone, a shorter one does not."""
+    state = start(WRIST, (0.0, math.radians(45.0), 0.0))
+    made = step(WRIST, state, (0.0, -0.002, 0.5), 0.05)
+    assert 0.0 < made.scale_factor < 1.0
+    assert WRIST.clearances(made.state.positions)[0].room >= -1e-9
+    outward = step(WRIST, state, (0.0, 0.002, 0.5), 0.05)
+    assert outward.scale_factor < 1e-4
 
 
 @pytest.mark.parametrize('speed', [1e-6, 1e-3, 0.5])

@@ -18,7 +18,7 @@ SPEED = {'revolute': 1.0, 'prismatic': 0.05}
 REACH = 0.1  # m, so that random linear rates fit random angular ones
 
 every_wrist = pytest.mark.parametrize('wrist', [make_wrist(name) for name in WRISTS], ids=WRISTS)
-few = settings(max_examples=25)
+few = settings(max_examples=15, deadline=None)
 commands = st.lists(st.tuples(*(st.floats(-1.5, 1.5),) * 6), min_size=1, max_size=8)
 
 
@@ -167,11 +167,14 @@ def test_no_command_leaves_everything_as_it_is(wrist, commands):
 @every_wrist
 @few
 @given(commands)
-def test_after_any_limit_the_opposite_command_moves(wrist, commands):
+def test_a_hand_that_runs_into_a_limit_can_back_out(wrist, commands):
+    """Only the way back is promised: in a corner of two limits other ways may be closed."""
     wrist = confined(wrist)
+    came_by = None
     for _, twist, made in walk(wrist, commands):
-        if made.scale_factor < 1e-3:
+        if made.scale_factor < 1e-3 and twist == came_by:
             for share in (1.0, 0.1):
                 back = step(wrist, made.state, tuple(-share * x for x in twist), DT)
                 assert back.scale_factor > 0.0
                 assert any(back.joint_rates)
+        came_by = twist if made.scale_factor > 0.05 else None

@@ -125,7 +125,7 @@ def draw(outcomes: Sequence[Outcome], path: Path) -> None:
         'pale is good; × stopped before the end; * points only, without roll',
         fontsize=12,
     )
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=90)
 
 
 def _draw_panel(axes: Axes, outcomes: Sequence[Outcome], panel: Panel) -> None:

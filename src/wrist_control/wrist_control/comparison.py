@@ -25,7 +25,7 @@ BARKER_STEPS = 32.0
 # of a turn at that rate: the radius of the only platform with legs, [Nguyen1991].
 JOINT_SPEEDS = {'revolute': BARKER_SPEED, 'prismatic': 0.27 * BARKER_SPEED}
 # A hand held up for longer than this does not finish, s; a stick ends by itself.
-PATIENCE = 10.0
+PATIENCE = 20.0
 
 
 class Outcome(NamedTuple):
