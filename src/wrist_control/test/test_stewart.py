@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.resolving import LimitKind, start, step
+from wrist_control.resolving.homing import arrived, step_towards
 from wrist_control.rotations import Pose, about_z, rates_between, turned
 from wrist_control.wrists.stewart import EDGE, INCH, LegLengths
 
@@ -195,6 +196,16 @@ def test_the_pose_does_not_drift_from_its_lengths():
     made = fly(WRIST, (0.02, -0.03, 0.01, 0.1, -0.2, 0.15), 200)
     state = made.state
     assert state.positions == pytest.approx(explicit_lengths(state.pose), rel=1e-13)
+
+
+def test_the_way_home_is_made_of_lengths_alone():
+    wrist = WRIST.with_limits(rates=0.1)
+    state = fly(wrist, (0.05, -0.05, 0.02, 0.3, 0.2, -0.3), 100, start(wrist)).state
+    for _ in range(200):
+        state = step_towards(wrist, state, wrist.home, DT)
+    assert arrived(state, wrist.home)
+    assert state.pose.position == pytest.approx(HOME.position, abs=1e-9)
+    assert step(wrist, state, (0, 0, 0, 0, 0, 0.1), DT).scale_factor == 1.0
 
 
 def test_twelve_anchors_are_the_same_wrist_as_the_ring():

@@ -434,3 +434,10 @@ def test_a_batch_turned_by_more_than_a_third_of_a_turn_is_right():
 def test_what_cannot_be_a_batch_is_refused(lengths, says):
     with pytest.raises(InvalidValueError, match=says):
         FK.solve_batch(lengths)
+
+
+def test_a_batch_with_another_number_of_poses_before_is_refused():
+    found, lengths, near = many(4)
+    assert len(found) == 4
+    with pytest.raises(InvalidValueError, match=r'one for each of the 3 rows'):
+        FK.solve_batch(lengths[:3], near)

@@ -75,6 +75,21 @@ def checked(lengths: Array) -> Array:
     return lengths
 
 
+def checked_near(near: Pose, n: int) -> Pose:
+    """Return the poses before n answers: one, or one for each.
+
+    Raises:
+        InvalidValueError: Another number of poses, or shapes that are none.
+    """
+    shapes = np.shape(near.quaternion), np.shape(near.position)
+    if shapes in (((4,), (3,)), ((n, 4), (n, 3))):
+        return near
+    raise InvalidValueError(
+        f'near has quaternions of shape {shapes[0]} and positions of shape {shapes[1]}; give one '
+        f'pose, or one for each of the {n} rows.'
+    )
+
+
 def empty(n: int) -> tuple[Array, ...]:
     """Return room for n answers, none of them solved (status 3, DIVERGED)."""
     nan = math.nan

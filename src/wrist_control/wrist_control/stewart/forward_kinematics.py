@@ -189,10 +189,10 @@ class ForwardKinematics:
                 (n, 4) and (n, 3); home when not given.
 
         Raises:
-            InvalidValueError: Not of that shape, or a length that is not finite and above 0.
+            InvalidValueError: Not of those shapes, or a length that is not finite and above 0.
         """
         lengths = batch.checked(lengths)
-        near = self.home if near is None else near
+        near = self.home if near is None else batch.checked_near(near, len(lengths))
         found = Solutions(*batch.empty(len(lengths)))
         if self.planar is not None:
             for part in batch.chunks(len(lengths)):
