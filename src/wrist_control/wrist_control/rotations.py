@@ -116,7 +116,7 @@ def turned(a: Quaternion, rates: Vector, dt: float) -> Quaternion:
         dt: Duration, s.
     """
     p, q, r = rates
-    omega = math.sqrt(p * p + q * q + r * r)
+    omega = math.hypot(p, q, r)  # squares of large rates would overflow
     if omega == 0.0:
         return a
     rho = 0.5 * omega * dt
