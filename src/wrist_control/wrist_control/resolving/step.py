@@ -130,7 +130,7 @@ def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     Raises:
         InvalidValueError: A command that is not finite; nothing has moved.
     """
-    if not math.isfinite(sum(twist)):
+    if not math.isfinite(math.hypot(*twist)):
         raise InvalidValueError(f'The command {tuple(twist)} is not finite; nothing moves.')
     if not any(twist):
         return resting(wrist, state)
@@ -158,7 +158,7 @@ def _step_along_command(
         if not found:
             after = State(positions, wrist.forward(positions), memory, state.time_lost)
             return _made(state, after, dt, factor, margin, False, limits)
-        limits = limits or found
+        limits = _joined(limits, found)
         factor *= max(SMALLEST_SHARE, smallest_share(found))
         if factor < smallest:
             break
@@ -188,7 +188,7 @@ def _step_through_lock(
             scaled = tuple(share * x for x in memory)
             after = State(positions, wrist.forward(positions), scaled, state.time_lost)
             return _made(state, after, dt, reach * share, margin, True, limits)
-        limits = limits or found
+        limits = _joined(limits, found)
         share *= smallest_share(found)
         if share == 0.0:
             break
@@ -232,6 +232,12 @@ def _twist_between(before: Pose, after: Pose, dt: float) -> Twist:
     travel = ((x1 - x0) / dt, (y1 - y0) / dt, (z1 - z0) / dt)
     vx, vy, vz = to_hand(before.quaternion, travel)
     return (vx, vy, vz, p, q, r)
+
+
+def _joined(limits: list[LimitAtWork], found: list[LimitAtWork]) -> list[LimitAtWork]:
+    """Return all limits, each kind once for a joint: as the whole command asked for it."""
+    known = {(limit.joint, limit.kind) for limit in limits}
+    return limits + [limit for limit in found if (limit.joint, limit.kind) not in known]
 
 
 def _edge(error: UnreachableError) -> LimitAtWork:
