@@ -101,11 +101,12 @@ class Supervisor:
 
         Raises:
             RefusedError: Wrong names, lengths or numbers; nothing has changed.
+            UnreachableError: A start that the mechanism cannot take; nothing has changed.
         """
         measured = self._sorted(names, positions)
-        self._measured = measured
         if not self._moved and self.mode is Mode.FOLLOWING:
             self._adopt(measured)
+        self._measured = measured
         self._watch_lag(measured, now)
 
     def enable(self, wanted: bool) -> str:
@@ -117,8 +118,11 @@ class Supervisor:
             self._commands.forget()
             self._lagging_since = None
             self._moved = False
-            if self._measured is not None:
-                self._adopt(self._measured)
+            try:
+                if self._measured is not None:
+                    self._adopt(self._measured)
+            except WristError as error:
+                return self._fail(str(error)).message
         self.mode = Mode.FOLLOWING
         return 'Enabled: following commands.'
 
@@ -126,12 +130,14 @@ class Supervisor:
         """Go back to the initial positions at the rate limits.
 
         Raises:
-            InvalidValueError: Nobody may move the joints now.
+            InvalidValueError: Nobody may move the joints now, or the limits have changed and the
+                initial positions cannot be used any more.
         """
         if self.mode in (Mode.DISABLED, Mode.FAULT):
             raise InvalidValueError(
                 f'Cannot reset: {self.mode.value} is in charge; call ~/enable first.'
             )
+        start(self.wrist, self.settings.initial_positions)
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
@@ -142,14 +148,14 @@ class Supervisor:
             now: The time on the clock of the stamps, s.
             received: The time on the clock that ages are judged by, s.
         """
-        if self.mode is Mode.HOMING:
-            return self._home()
-        if self.mode is not Mode.FOLLOWING:
-            return self._stand_still()
         try:
-            return self._follow(self._commands.at(now), received)
+            if self.mode is Mode.HOMING:
+                return self._home()
+            if self.mode is Mode.FOLLOWING:
+                return self._follow(self._commands.at(now), received)
         except WristError as error:
             return self._fail(str(error))
+        return self._stand_still()
 
     def _follow(self, command: Command | None, received: float) -> Outcome:
         commanded, fresh = self._commanded(command, received)
