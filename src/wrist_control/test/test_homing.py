@@ -1,0 +1,82 @@
+"""The way back to the start: within the rate limits, all joints arriving together."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from wrist_control import make_wrist
+from wrist_control.resolving import start
+from wrist_control.resolving.homing import CALM, arrived, step_towards
+
+WRIST = make_wrist('three_gimbal')
+places = st.tuples(st.floats(-3.0, 3.0), st.floats(-1.4, 1.4), st.floats(-3.0, 3.0))
+rate_limits = st.lists(st.one_of(st.floats(0.05, 5.0), st.just(math.inf)), min_size=3, max_size=3)
+
+
+def way(wrist, state, aim, dt):
+    """Yield the states on the way to an aim, until there."""
+    while not arrived(state, aim):
+        state = step_towards(wrist, state, aim, dt)
+        yield state
+
+
+@given(places, places, rate_limits)
+def test_no_joint_ever_moves_faster_than_its_limit_or_than_calm(there, aim, rates):
+    wrist = WRIST.with_limits(rates=rates)
+    allowed = [min(rate, CALM['revolute']) if math.isinf(rate) else rate for rate in rates]
+    state = start(wrist, there)
+    for after in way(wrist, state, aim, 0.1):
+        moved = np.abs(np.subtract(after.positions, state.positions))
+        assert (moved <= 0.1 * np.array(allowed) * (1.0 + 2e-9)).all()
+        state = after
+
+
+@given(places, places)
+def test_the_joints_go_straight_and_arrive_together_in_the_time_of_the_slowest(there, aim):
+    rates = (0.5, 1.0, 2.0)
+    wrist = WRIST.with_limits(rates=rates)
+    path = np.array(
+        [there, *(state.positions for state in way(wrist, start(wrist, there), aim, 0.1))]
+    )
+    longest = max(np.abs(np.subtract(aim, there)) / rates)
+    assert len(path) - 1 == pytest.approx(longest / 0.1, abs=1.0 + 1e-6)
+    np.testing.assert_allclose(path[-1], aim, atol=1e-9)
+    along = np.subtract(aim, there)
+    if np.abs(along).max() > 1e-3:
+        shares = (path - there) @ along / (along @ along)
+        np.testing.assert_allclose(path, there + shares[:, None] * along, atol=1e-9)
+        assert (np.diff(shares) > 0.0).all()
+
+
+def test_the_hand_goes_with_the_joints_and_time_lost_stands_on_the_way():
+    state = start(WRIST, (0.5, 0.5, 0.5))._replace(time_lost=3.0, memory=(1.0,))
+    after = step_towards(WRIST, state, (0.0, 0.0, 0.0), 0.1)
+    assert after.pose == WRIST.forward(after.positions)
+    assert after.time_lost == 3.0
+    assert after.memory == ()
+
+
+def test_a_prismatic_joint_without_a_limit_goes_calmly_too():
+    wrist = make_wrist('stewart').with_limits(rates=math.inf)
+    state = start(wrist)
+    aim = tuple(x + 0.01 for x in state.positions)
+    after = step_towards(wrist, state, aim, 0.1)
+    assert np.subtract(after.positions, state.positions) == pytest.approx(
+        [0.1 * CALM['prismatic']] * 6
+    )
+
+
+def test_a_joint_outside_its_range_comes_back_into_it():
+    wrist = WRIST.with_limits(lower=-1.0, upper=1.0)
+    outside = start(WRIST, (2.0, 0.0, -1.5))
+    *_, last = way(wrist, outside, (0.0, 0.0, 0.0), 0.1)
+    assert last.positions == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+def test_arrived_is_every_joint_in_its_place():
+    state = start(WRIST, (0.1, 0.2, 0.3))
+    assert arrived(state, (0.1, 0.2, 0.3))
+    assert not arrived(state, (0.1, 0.2, 0.3 + 1e-6))
