@@ -13,13 +13,14 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import rclpy
 from geometry_msgs.msg import TwistStamped
 from rclpy.signals import SignalHandlerOptions
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 from rich.table import Table
 from sensor_msgs.msg import JointState
 
@@ -29,11 +30,14 @@ from wrist_control.figures import draw_flight, draw_tip, save
 from wrist_control.maneuvers import BARKER_SPEED
 from wrist_control.nodes.lockstep import Lockstep
 from wrist_control.nodes.processes import NodeProcesses, config_file
-from wrist_control.nodes.recording import recorded_flight
+from wrist_control.nodes.recording import in_step, recorded_flight
 from wrist_control.reproduction import Row, three_gimbal_table
 from wrist_interfaces.msg import WristStatus
 
 RATE = 32.0
+FILES = ('three_gimbal.yaml', 'demo.yaml')
+# How often a flight is repeated when the machine is too busy to fly it exactly.
+ATTEMPTS = 3
 # Longer than the maneuver can take, s of simulated time.
 LONGEST = 60.0
 
@@ -82,17 +86,30 @@ def fly_through_ros(progress: Progress, label: str, limit: float, speed: float) 
     Raises:
         WristError: A node did not start, or stopped answering.
     """
-    task = progress.add_task(label, total=5.625, saying='starting three ROS 2 nodes')
+    task = progress.add_task(label, total=1.0, saying='')
+    for _ in range(ATTEMPTS):
+        heard = _hear_flight(progress, task, limit, speed)
+        if in_step(heard):
+            break
+        progress.update(task, saying='this machine is busy: once more, slower')
+        speed = 0.5 * speed if speed > 0.0 else 1.0
+    wrist = make_wrist('three_gimbal').with_limits(rates=limit)
+    return recorded_flight(wrist, make_maneuver('basic_test'), 1.0 / RATE, heard)
+
+
+def _hear_flight(
+    progress: Progress, task: TaskID, limit: float, speed: float
+) -> dict[str, list[Any]]:
+    """Start the nodes, tick them through the maneuver, and return all that they published."""
+    progress.update(task, saying='starting three ROS 2 nodes', completed=0.0)
     context = rclpy.Context()
     rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
-    files = [config_file('three_gimbal.yaml'), config_file('demo.yaml')]
     try:
-        with NodeProcesses('wrist_demo', files) as nodes:
+        with NodeProcesses('wrist_demo', [config_file(name) for name in FILES]) as nodes:
             node = rclpy.create_node('demo', namespace=nodes.namespace, context=context)
             clock = Lockstep(node, 1.0 / RATE, alive=nodes.check)
-            limits = {'joint_rate_limits': limit}
-            nodes.start('three_gimbal_resolver', limits)
-            nodes.start('joint_simulator', limits)
+            nodes.start('three_gimbal_resolver', {'joint_rate_limits': limit})
+            nodes.start('joint_simulator', {'joint_rate_limits': limit})
             clock.listen(
                 {
                     'wrist_status': WristStatus,
@@ -106,14 +123,14 @@ def fly_through_ros(progress: Progress, label: str, limit: float, speed: float) 
             clock.begin()
             _tick_through(clock, progress, task, speed)
             node.destroy_node()
-        wrist = make_wrist('three_gimbal').with_limits(rates=limit)
-        return recorded_flight(wrist, make_maneuver('basic_test'), 1.0 / RATE, clock.heard)
+        return clock.heard
     finally:
         rclpy.shutdown(context=context)
 
 
-def _tick_through(clock: Lockstep, progress: Progress, task: int, speed: float) -> None:
+def _tick_through(clock: Lockstep, progress: Progress, task: TaskID, speed: float) -> None:
     began = time.monotonic()
+    duration = make_maneuver('basic_test').duration
     moved = False
     for tick in range(round(LONGEST * RATE)):
         clock.tick()
@@ -124,10 +141,10 @@ def _tick_through(clock: Lockstep, progress: Progress, task: int, speed: float) 
         elif moved:
             break
         done = tick / RATE - status.time_lost
-        progress.update(task, completed=max(0.0, done), saying=status.message[:44])
+        progress.update(task, completed=max(0.0, done / duration), saying=status.message[:44])
         if speed > 0.0:
             time.sleep(max(0.0, began + tick / (RATE * speed) - time.monotonic()))
-    progress.update(task, completed=5.625, saying=f'flown, {status.time_lost:.4f} s lost')
+    progress.update(task, completed=1.0, saying=f'flown, {status.time_lost:.4f} s lost')
 
 
 def against_library(unscaled: Flight, scaled: Flight) -> list[Row]:
@@ -137,16 +154,14 @@ def against_library(unscaled: Flight, scaled: Flight) -> list[Row]:
         alone = fly(flight.wrist, flight.maneuver, RATE)
         n = min(len(alone.time), len(flight.time))
         gap = np.abs(alone.joint_positions[:n] - flight.joint_positions[:n]).max()
-        rows.append(
-            Row(f'ROS graph against library, {name}', 'the same step', f'{gap:.1e} rad apart')
-        )
+        rows.append(Row(f'ROS 2 graph against fly(), {name}', 'one step', f'{gap:.1e} rad apart'))
     return rows
 
 
 def table(rows: Sequence[Row]) -> Table:
     """Return the table "paper | measured"."""
-    shown = Table(title='Basic test maneuver, three-gimbal wrist [Barker1986]')
-    for heading in ('', 'paper', 'measured'):
+    shown = Table(title='Barker (1986), figures 6 to 8: basic test maneuver, three-gimbal wrist')
+    for heading in ('figure', 'paper', 'measured'):
         shown.add_column(heading)
     for row in rows:
         shown.add_row(*row)

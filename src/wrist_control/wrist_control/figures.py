@@ -27,8 +27,7 @@ CROWDED = 8.0
 def draw_tip(flight: Flight, title: str) -> Figure:
     """Draw the probe tip over time, as in figure 6."""
     figure, axes = plt.subplots(figsize=(7.0, 4.0), layout='constrained')
-    _tip(axes, flight)
-    figure.suptitle(title)
+    _tip(axes, flight, title)
     return figure
 
 
@@ -36,7 +35,7 @@ def draw_flight(flight: Flight, title: str) -> Figure:
     """Draw effective operator inputs, probe tip, joint rates and joint angles, as in figure 7."""
     figure, axes = plt.subplots(2, 2, figsize=(11.0, 7.5), sharex=True, layout='constrained')
     _inputs(axes[0, 0], flight)
-    _tip(axes[0, 1], flight)
+    _tip(axes[0, 1], flight, '(b) Probe tip in forearm axes')
     _rates(axes[1, 0], flight)
     _angles(axes[1, 1], flight)
     figure.suptitle(title)
@@ -57,9 +56,9 @@ def _inputs(axes: Axes, flight: Flight) -> None:
     _label(axes, '(a) Effective operator inputs', 'deg/s')
 
 
-def _tip(axes: Axes, flight: Flight) -> None:
+def _tip(axes: Axes, flight: Flight, title: str) -> None:
     _lines(axes, flight.time, flight.tip / INCH, ('x tip', 'y tip', 'z tip'))
-    _label(axes, '(b) Probe tip in forearm axes', 'in.')
+    _label(axes, title, 'in.')
 
 
 def _rates(axes: Axes, flight: Flight) -> None:

@@ -8,9 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from wrist_control.flight import Flight
+from wrist_control.rotations import Vector
 
 # The probe pauses while it is this close to vertical, rad.
 NEAR_VERTICAL = math.radians(1.0)
+DOWN: Vector = (0.0, 0.0, -1.0)
+LEFT: Vector = (0.0, 1.0, 0.0)
 
 
 class Row(NamedTuple):
@@ -52,9 +55,13 @@ def peak_rates(flight: Flight) -> np.ndarray:
     return np.asarray(np.degrees(np.abs(flight.joint_rates).max(axis=0)))
 
 
-def tip_error(flight: Flight, row: int, target: tuple[float, float, float]) -> float:
-    """Return how far the tip is from a point given in probe lengths, in probe lengths."""
+def tip_error(flight: Flight, row: int, target: Vector) -> float:
+    """Return how far the tip is from where a direction points, in probe lengths."""
     return float(np.linalg.norm(probe_direction(flight)[row] - np.array(target)))
+
+
+def _inches(flight: Flight, row: int, target: Vector) -> str:
+    return f'{6.0 * tip_error(flight, row, target):.4f} in.'
 
 
 def three_gimbal_table(unscaled: Flight, scaled: Flight) -> list[Row]:
@@ -65,31 +72,20 @@ def three_gimbal_table(unscaled: Flight, scaled: Flight) -> list[Row]:
         scaled: The same with every gimbal held to 32 deg/s.
     """
     lock = int(np.argmin(angle_from_vertical(unscaled)))
-    psi, _, phi = np.degrees(
-        unscaled.joint_positions[lock + 1] - unscaled.joint_positions[lock]
-    )
+    psi, _, phi = np.degrees(unscaled.joint_positions[lock + 1] - unscaled.joint_positions[lock])
     peak = peak_rates(unscaled)
-    h = unscaled.time[1] - unscaled.time[0]
+    delay = scaled.time[-1] - unscaled.time[-1]
     return [
-        Row('fig. 6: probe vertical after', '2.8125 s', f'{unscaled.time[lock]:.4f} s'),
-        Row(
-            'fig. 6: tip there, from (0, 0, -6) in.',
-            '0 in.',
-            f'{6.0 * tip_error(unscaled, lock, (0, 0, -1)):.4f} in.',
-        ),
-        Row(
-            'fig. 6: tip at the end, from (0, 6, 0) in.',
-            '0 in.',
-            f'{6.0 * tip_error(unscaled, -1, (0, 1, 0)):.4f} in.',
-        ),
-        Row('fig. 7: ψ and φ change at lock by', '90°, 90°', f'{psi:.4f}°, {phi:.4f}°'),
-        Row('fig. 7: rate of ψ at lock', 'infinite', f'{peak[0]:.4f} deg/s = 90° / {h:.5f} s'),
-        Row('fig. 7: peak rate of θ', '32 deg/s', f'{peak[1]:.4f} deg/s'),
-        Row('fig. 7: path error', 'agrees exactly', f'{math.degrees(path_error(unscaled)):.4f}°'),
-        Row('fig. 8: pause between the two parts', 'about 2.8 s', f'{pause(scaled):.4f} s'),
-        Row('fig. 8: time lost, ∫(1 − F) dt', 'not printed', f'{scaled.time_lost[-1]:.4f} s'),
-        Row(
-            'fig. 8: peak rate of any gimbal', '32 deg/s', f'{peak_rates(scaled).max():.4f} deg/s'
-        ),
-        Row('fig. 8: path error', 'moves as desired', f'{math.degrees(path_error(scaled)):.4f}°'),
+        Row('6: probe vertical after', '2.8125 s', f'{unscaled.time[lock]:.4f} s'),
+        Row('6: tip there is off (0, 0, -6) by', '0', f'{_inches(unscaled, lock, DOWN)}'),
+        Row('6: tip at the end is off (0, 6, 0) by', '0', f'{_inches(unscaled, -1, LEFT)}'),
+        Row('7: ψ, φ jump at lock by', '90°, 90°', f'{psi:.4f}°, {phi:.4f}°'),
+        Row('7: rate of ψ, φ at lock', 'infinite', f'{peak[0]:.4f} deg/s = 90° / h'),
+        Row('7: peak rate of θ', '32 deg/s', f'{peak[1]:.4f} deg/s'),
+        Row('7: path error', 'agrees exactly', f'{math.degrees(path_error(unscaled)):.4f}°'),
+        Row('8: delay by scaling', 'about 2.8 s', f'{delay:.4f} s'),
+        Row('8: pause within 1° of vertical', 'about 2.8 s', f'{pause(scaled):.4f} s'),
+        Row('8: time lost, ∫(1 − F) dt', 'not printed', f'{scaled.time_lost[-1]:.4f} s'),
+        Row('8: peak rate of any gimbal', '32 deg/s', f'{peak_rates(scaled).max():.4f} deg/s'),
+        Row('8: path error', 'moves as desired', f'{math.degrees(path_error(scaled)):.4f}°'),
     ]

@@ -14,7 +14,7 @@ from wrist_control.errors import InvalidValueError
 from wrist_control.nodes import convert
 from wrist_control.nodes.diagnostics import OK, Diagnostics
 from wrist_control.nodes.parameters import Spec, declare
-from wrist_control.nodes.qos import NEWEST, OUTPUT
+from wrist_control.nodes.qos import EVERY, OUTPUT
 from wrist_control.nodes.running import run
 from wrist_control.resolving.commands import RefusedError
 from wrist_control.resolving.newest import Newest
@@ -64,7 +64,7 @@ class JointSimulator(Node):
             self._begin(self._values['joints'], None)
         self._diagnostics = Diagnostics(self, self._health)
         self._publisher = self.create_publisher(JointState, 'joint_states', OUTPUT)
-        self.create_subscription(JointState, 'joint_command', self._on_command, NEWEST)
+        self.create_subscription(JointState, 'joint_command', self._on_command, EVERY)
         self.create_timer(1.0 / self._values['rate'], self._tick)
 
     def _begin(self, names: list[str], commanded: list[float] | None) -> None:

@@ -22,6 +22,8 @@ from wrist_control.errors import WristError
 AGAIN = 0.1
 # While nodes are still finding each other a tick may go unanswered; then the next is tried, s.
 WARM_UP = 0.5
+# What was published at one tick must have arrived everywhere before the next, s.
+SETTLE = 0.004
 # Simulated time starts here, s: zero would mean that there is no time yet.
 START = 10
 
@@ -95,6 +97,7 @@ class Lockstep:
         Raises:
             NoAnswerError: Somebody did not, in one sentence.
         """
+        time.sleep(SETTLE)
         self.ticks += 1
         silent = self._answered_within(self._limit)
         if silent:

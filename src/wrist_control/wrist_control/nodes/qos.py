@@ -6,3 +6,5 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 # Of a late burst only the newest counts; and publishers of either kind are heard.
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+# Positions may come in a burst: each is where to be at its own stamp.
+EVERY = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)

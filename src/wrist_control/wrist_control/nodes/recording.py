@@ -55,6 +55,25 @@ def recorded_flight(
     )
 
 
+def in_step(heard: Mapping[str, Sequence[Any]]) -> bool:
+    """Return whether each node acted at every tick on what the others said at the tick before.
+
+    On a machine that is very busy a message can arrive after the next tick.
+
+    Args:
+        heard: `cmd_vel`, `wrist_status`, `joint_command` and `joint_states` of the same ticks.
+    """
+    followed = [convert.twist_values(status.commanded) for status in heard['wrist_status']]
+    asked = [convert.twist_values(command.twist) for command in heard['cmd_vel']]
+    told = [list(command.position) for command in heard['joint_command']]
+    seen = [list(state.position) for state in heard['joint_states']]
+    n = len(asked)
+    return followed[-n:][1:] == asked[:-1] and all(
+        np.allclose(one, other, rtol=0.0, atol=1e-9)
+        for one, other in zip(seen[-n:][1:], told[-n:][:-1], strict=True)
+    )
+
+
 def _moving(statuses: Sequence[Any]) -> Sequence[Any]:
     """Return the statuses from the first followed command to the first zero after the last."""
     rows = [

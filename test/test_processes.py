@@ -1,0 +1,124 @@
+"""Nodes as users run them: executables that end cleanly, and a demo that leaves nothing behind."""
+
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from ament_index_python.packages import get_package_prefix
+
+from wrist_control.nodes.processes import config_file
+from wrist_control.wrists import WRISTS
+
+EXECUTABLES = Path(get_package_prefix('wrist_control')) / 'lib' / 'wrist_control'
+UP = 4.0  # s: longer than a node needs to start on a busy machine
+
+
+def start(environment, executable, *arguments):
+    command = [str(EXECUTABLES / executable), '--ros-args', *arguments]
+    return subprocess.Popen(
+        command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+
+
+def stop(process, number):
+    process.send_signal(number)
+    try:
+        _, said = process.communicate(timeout=10.0)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        raise
+    return said
+
+
+def test_every_executable_of_the_contract_is_installed():
+    names = {path.name for path in EXECUTABLES.iterdir()}
+    resolvers = {f'{wrist}_resolver' for wrist in WRISTS}
+    assert {'operator', 'joint_simulator', 'stewart_forward_kinematics', *resolvers} <= names
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('clock', ['false', 'true'])
+@pytest.mark.parametrize(
+    'executable', ['operator', 'three_gimbal_resolver', 'joint_simulator']
+)
+def test_a_signal_ends_a_node_with_exit_code_0(process_environment, executable, clock, number):
+    process = start(process_environment, executable, '-p', f'use_sim_time:={clock}')
+    time.sleep(UP)
+    assert process.poll() is None, process.communicate()[1]
+    said = stop(process, number)
+    assert process.returncode == 0, said
+    assert 'Traceback' not in said
+
+
+def test_a_bad_parameter_ends_a_node_with_one_sentence(process_environment):
+    process = start(process_environment, 'four_gimbal_resolver', '-p', 'gain:=-1.0')
+    _, said = process.communicate(timeout=30.0)
+    assert process.returncode == 2
+    assert said.startswith('Cannot start: gain is -1.0; valid is')
+    assert len(said.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize('wrist', WRISTS)
+def test_every_wrist_has_a_ready_parameter_file_that_its_nodes_accept(process_environment, wrist):
+    file = str(config_file(f'{wrist}.yaml'))
+    nodes = [
+        start(process_environment, executable, '--params-file', file)
+        for executable in (f'{wrist}_resolver', 'joint_simulator')
+    ]
+    time.sleep(UP)
+    for node in nodes:
+        assert node.poll() is None, node.communicate()[1]
+        said = stop(node, signal.SIGTERM)
+        assert node.returncode == 0, said
+        assert 'Traceback' not in said
+
+
+def processes_of(domain):
+    """Return the command lines of every process in a ROS domain but this one."""
+    found = []
+    for folder in Path('/proc').glob('[0-9]*'):
+        try:
+            environment = (folder / 'environ').read_bytes()
+            if f'ROS_DOMAIN_ID={domain}\0'.encode() in environment:
+                found.append((folder / 'cmdline').read_text())
+        except OSError:
+            continue
+    return found
+
+
+def demo(environment, *arguments):
+    command = ['python3', '-m', 'wrist_control.demo', *arguments]
+    return subprocess.Popen(
+        command, env=environment, stdout=subprocess.PIPE, text=True, start_new_session=True
+    )
+
+
+def test_the_demo_draws_three_figures_and_says_paper_and_measured(process_environment, tmp_path):
+    process = demo(process_environment, '--speed', '0', '--out', str(tmp_path))
+    said, _ = process.communicate(timeout=100.0)
+    assert process.returncode == 0
+    for expected in ('paper', 'measured', '2.8125 s', '2880.0000 deg/s', '0.0677°'):
+        assert expected in said
+    for name in ('fig6.png', 'fig7.png', 'fig8.png'):
+        assert (tmp_path / name).read_bytes().startswith(b'\x89PNG')
+    assert processes_of(process_environment['ROS_DOMAIN_ID']) == []
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_the_demo_leaves_no_process_behind_when_it_is_stopped(
+    process_environment, tmp_path, number
+):
+    process = demo(process_environment, '--speed', '0.2', '--out', str(tmp_path))
+    domain = process_environment['ROS_DOMAIN_ID']
+    end = time.monotonic() + 60.0
+    while len(processes_of(domain)) < 4 and time.monotonic() < end:
+        time.sleep(0.2)
+    assert len(processes_of(domain)) >= 4
+    time.sleep(1.0)
+    os.kill(process.pid, number)
+    process.communicate(timeout=30.0)
+    assert process.returncode in (130, 143)
+    assert processes_of(domain) == []
