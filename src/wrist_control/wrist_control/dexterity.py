@@ -21,8 +21,6 @@ LEAST_DETERMINANT = 0.5
 LARGEST_RATIO = 10.0
 # The hand can turn about an axis when the joints make all but this share of the turn.
 POSSIBLE = 1e-6
-# A sweep that could step over an edge takes this many steps instead of one.
-CAREFUL = 16
 
 
 def principal(jacobian: np.ndarray) -> np.ndarray:
@@ -149,27 +147,22 @@ def sweep(wrist: Wrist, axis: Sequence[float], angles: Sequence[float]) -> list[
     Args:
         wrist: The mechanism; its position limits and clearances end the sweep.
         axis: Unit vector in hand axes; p, q, r are held in its direction.
-        angles: Where to look, rad, growing from 0 on.
+        angles: Where to look, rad, growing from 0 on; the hand turns from one to the next at
+            once, so a lock narrower than that is stepped over.
 
     Returns:
         Joint positions, rad or m, one for each angle up to the workspace edge.
     """
     found: list[Positions] = []
     twist = (*(0.0,) * (wrist.twist_size - 3), *axis)
-    place, before, parts = _Place(wrist.home, wrist.forward(wrist.home), ()), 0.0, 1
+    place, before = _Place(wrist.home, wrist.forward(wrist.home), ()), 0.0
     for angle in angles:
-        rooms = wrist.clearances(place.positions)
         try:
-            for _ in range(parts):
-                place = _turned_on(wrist, place, twist, (angle - before) / parts)
+            place = _turned_on(wrist, place, twist, angle - before)
         except UnreachableError:
             break
         found.append(place.positions)
-        left = wrist.clearances(place.positions)
-        near = any(
-            new.room < 2.0 * (old.room - new.room) for old, new in zip(rooms, left, strict=True)
-        )
-        before, parts = angle, CAREFUL if near else 1
+        before = angle
     return found
 
 
