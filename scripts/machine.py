@@ -23,6 +23,7 @@ COMPILERS = {
 
 # Where ROS 2 is sourced nothing is installed; these Ubuntu packages bring what must be there.
 APT_OF_MODULE = {
+    'ament_index_python': 'ros-jazzy-ament-index-python',
     'diagnostic_msgs': 'ros-jazzy-common-interfaces',
     'geometry_msgs': 'ros-jazzy-common-interfaces',
     'hypothesis': 'python3-hypothesis',
@@ -38,7 +39,6 @@ APT_OF_MODULE = {
     'std_srvs': 'ros-jazzy-common-interfaces',
     'visualization_msgs': 'ros-jazzy-common-interfaces',
     'xdist': 'python3-pytest-xdist',
-    'yaml': 'python3-yaml',
 }
 APT_OF_PROGRAM = {'cmake': 'cmake', 'colcon': 'python3-colcon-common-extensions'}
 APT_OF_ROS_PACKAGE = {
