@@ -23,6 +23,7 @@ COMPILERS = {
 
 # Where ROS 2 is sourced nothing is installed; these Ubuntu packages bring what must be there.
 APT_OF_MODULE = {
+    'PIL': 'python3-pil',
     'ament_index_python': 'ros-jazzy-ament-index-python',
     'diagnostic_msgs': 'ros-jazzy-common-interfaces',
     'geometry_msgs': 'ros-jazzy-common-interfaces',
