@@ -41,9 +41,7 @@ def test_every_executable_of_the_contract_is_installed():
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize('clock', ['false', 'true'])
-@pytest.mark.parametrize(
-    'executable', ['operator', 'three_gimbal_resolver', 'joint_simulator']
-)
+@pytest.mark.parametrize('executable', ['operator', 'three_gimbal_resolver', 'joint_simulator'])
 def test_a_signal_ends_a_node_with_exit_code_0(process_environment, executable, clock, number):
     process = start(process_environment, executable, '-p', f'use_sim_time:={clock}')
     time.sleep(UP)

@@ -185,8 +185,7 @@ def _step_through_lock(
         )
         found = overruns(wrist, state.positions, positions, dt)
         if not found:
-            scaled = tuple(share * x for x in memory)
-            after = State(positions, wrist.forward(positions), scaled, state.time_lost)
+            after = State(positions, wrist.forward(positions), memory, state.time_lost)
             return _made(state, after, dt, reach * share, margin, True, limits)
         limits = _joined(limits, found)
         share *= smallest_share(found)
