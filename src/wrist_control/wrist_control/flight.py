@@ -124,12 +124,13 @@ def _rows(
         waited = held_back + state.time_lost if maneuver.waits else 0.0
         time = len(rows) * dt - waited
         order = maneuver.order(time, dt)
-        held_back += (1.0 - order.share) * dt
         command = (*linear, *order.rates)
         made = step(wrist, state, command, dt)
         rows.append((state, command, made))
         if time >= maneuver.duration - 1e-9:
             return rows, True
+        lost = made.state.time_lost - state.time_lost
+        held_back += (1.0 - order.share) * (dt - lost)  # so that the clock advances by F share dt
         state = made.state
         if progress is not None:
             progress(min(1.0, time / maneuver.duration))
