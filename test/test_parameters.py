@@ -57,6 +57,24 @@ def test_a_resolver_refuses_to_start_with_a_bad_value(graph, parameters, sentenc
 
 
 @pytest.mark.parametrize(
+    ('wrist', 'parameters', 'sentence'),
+    [
+        ('four_gimbal', {'gain': 0.0}, r'gain is 0.0; valid is 0.001 to 10 rad/s'),
+        ('single_hooke', {'cone_half_angle': math.pi / 2}, r'cone_half_angle is 1.57'),
+        ('double_hooke', {'shaft_length': -0.1}, r'shaft_length is -0.1; valid is'),
+        ('omni_wrist', {'initial_positions': [0.0, 1.2, 0.0]}, r'lie outside: '),
+        ('roll_pitch_roll', {'initial_positions': [0.0, 0.0, 0.0]}, r'are at lock'),
+        ('carpal', {'plunge': 0.0}, r'plunge is 0.0; valid is'),
+        ('carpal', {'plunge': 1.0}, r'plunge'),
+        ('stewart', {'platform_radius': -1.0}, r'platform_radius is -1.0; valid is'),
+    ],
+)
+def test_every_wrist_refuses_a_bad_dimension_or_start(graph, wrist, parameters, sentence):
+    with pytest.raises(WristError, match=sentence):
+        graph.start(Resolver, wrist, **parameters)
+
+
+@pytest.mark.parametrize(
     ('parameters', 'sentence'),
     [
         ({'maneuver': 'loop'}, r"maneuver is 'loop'; valid is one of basic_test"),

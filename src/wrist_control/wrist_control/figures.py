@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib
@@ -88,12 +89,18 @@ def _names(flight: Flight) -> list[str]:
 
 
 def _lines(
-    axes: Axes, time: np.ndarray, values: np.ndarray, names: object, steps: bool = False
+    axes: Axes, time: np.ndarray, values: np.ndarray, names: Sequence[str], steps: bool = False
 ) -> None:
-    how = 'steps-post' if steps else 'default'
     for column, name in enumerate(names):
-        style = {'color': COLORS[column], 'linestyle': STYLES[column], 'drawstyle': how}
-        axes.plot(time, values[:, column], label=name, linewidth=1.6, **style)
+        axes.plot(
+            time,
+            values[:, column],
+            label=name,
+            linewidth=1.6,
+            color=COLORS[column],
+            linestyle=STYLES[column],
+            drawstyle='steps-post' if steps else 'default',
+        )
 
 
 def _label(axes: Axes, title: str, unit: str) -> None:

@@ -6,7 +6,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 
@@ -93,7 +93,7 @@ class NodeProcesses:
         signal.signal(signal.SIGTERM, self._before)
 
 
-def _each(flag: str, values: object) -> list[str]:
+def _each(flag: str, values: Iterable[str]) -> list[str]:
     return [part for value in values for part in (flag, value)]
 
 
