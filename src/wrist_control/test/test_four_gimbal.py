@@ -33,9 +33,9 @@ def peak(flight):
 @given(gimbals)
 def test_hand_turns_about_z_y_x_z_in_this_order(positions):
     psi, theta, phi, alpha = positions
-    turned = Rotation.from_euler('ZYX', [psi, theta, phi]) * Rotation.from_euler('Z', [alpha])
+    turned = Rotation.from_euler('ZYX', [psi, theta, phi]) * Rotation.from_euler('Z', alpha)
     pose = WRIST.forward(positions)
-    np.testing.assert_allclose(pose.rotation, turned.as_matrix()[0].T, atol=1e-12)
+    np.testing.assert_allclose(pose.rotation, turned.as_matrix().T, atol=1e-12)
     assert pose.position == (0.0, 0.0, 0.0)
 
 
