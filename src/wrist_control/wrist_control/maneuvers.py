@@ -152,3 +152,43 @@ def make_maneuver(name: str, speed: float = BARKER_SPEED) -> Maneuver:
     if not (math.isfinite(speed) and speed > 0.0):
         raise InvalidValueError(f'speed is {speed}; it must be finite and above 0 rad/s.')
     return MANEUVERS[name](speed)
+
+
+class Pilot:
+    """Flies a maneuver tick by tick, watching how much time the hand loses.
+
+    Attributes:
+        maneuver: What is flown.
+        began: When it began, s; None before.
+        done: True once the hand has done all of it.
+    """
+
+    def __init__(self, maneuver: Maneuver, period: float) -> None:
+        """Prepare to fly.
+
+        Args:
+            maneuver: What to fly.
+            period: How long each command is held, s.
+        """
+        self.maneuver = maneuver
+        self.began: float | None = None
+        self.done = False
+        self._period = period
+        self._lost_before = self._held_back = 0.0
+
+    def rates(self, now: float, time_lost: float) -> Vector:
+        """Return p, q, r to ask for now, rad/s; the first call begins the maneuver.
+
+        Args:
+            now: s.
+            time_lost: The time that the hand has lost so far, s; from any beginning.
+        """
+        if self.began is None:
+            self.began, self._lost_before = now, time_lost
+        time = now - self.began
+        if self.maneuver.waits:
+            time -= max(0.0, time_lost - self._lost_before) + self._held_back
+        self.done = time >= self.maneuver.duration
+        order = self.maneuver.order(time, self._period)
+        self._held_back += (1.0 - order.share) * self._period
+        return order.rates

@@ -1,4 +1,4 @@
-"""The operator: a scripted maneuver, or constant rates, as commands at a steady rate."""
+"""The operator: a maneuver, a joystick or constant rates, as commands at a steady rate."""
 
 from __future__ import annotations
 
@@ -9,15 +9,18 @@ from typing import Any
 
 from geometry_msgs.msg import TwistStamped
 from rclpy.node import Node
+from sensor_msgs.msg import Joy
 from std_msgs.msg import Header
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.maneuvers import BARKER_SPEED, MANEUVERS, STILL, Maneuver, make_maneuver
+from wrist_control.joystick import Held, Joystick
+from wrist_control.maneuvers import BARKER_SPEED, MANEUVERS, STILL, Pilot, make_maneuver
 from wrist_control.nodes import convert
 from wrist_control.nodes.diagnostics import OK, Diagnostics
 from wrist_control.nodes.parameters import Spec, declare, watch
 from wrist_control.nodes.qos import NEWEST, OUTPUT
 from wrist_control.nodes.running import run
+from wrist_control.resolving.commands import RefusedError
 from wrist_control.resolving.newest import Newest
 from wrist_interfaces.msg import WristStatus
 
@@ -26,8 +29,8 @@ SPECS = [
     Spec(
         'maneuver',
         'hold',
-        'What to fly; "constant" publishes constant_rates',
-        choices=(*MANEUVERS, 'constant'),
+        'What to fly; or "constant" for constant_rates, or "joystick" for the topic joy',
+        choices=(*MANEUVERS, 'constant', 'joystick'),
     ),
     Spec('speed', BARKER_SPEED, 'Hand rate that a maneuver is flown at', 'rad/s', 1e-6, 100.0),
     Spec(
@@ -41,7 +44,20 @@ SPECS = [
     ),
     Spec('listeners', 1.0, 'Subscribers of cmd_vel that a maneuver waits for', '', 0.0, 100.0),
     Spec('frame_id', '', 'Frame of the commands: the hand frame, the forearm frame, or empty'),
+    Spec('joy_axes', [0.0, 1.0, 3.0], 'Numbers of the axes for p, q, r', '', 0.0, 100.0),
+    Spec(
+        'joy_scales',
+        [-BARKER_SPEED, BARKER_SPEED, BARKER_SPEED],
+        'p, q, r at full deflection; below 0 turns an axis round',
+        'rad/s',
+        -100.0,
+        100.0,
+    ),
+    Spec('joy_deadzone', 0.05, 'Deflection that counts as none', '', 0.0, 0.9),
+    Spec('joy_timeout', 0.5, 'Silence after which a joystick counts as released', 's', 0.01, 10.0),
+    Spec('enable_button', 5.0, 'Button that must be held, -1 for none', '', -1.0, 100.0),
 ]
+TRIPLES = ('constant_rates', 'joy_axes', 'joy_scales')
 
 
 class Operator(Node):
@@ -58,32 +74,52 @@ class Operator(Node):
         """
         super().__init__('operator', **node_options)
         self._values = declare(self, SPECS)
-        self._maneuver: Maneuver | None = None
-        if self._values['maneuver'] != 'constant':
-            self._maneuver = make_maneuver(self._values['maneuver'], self._values['speed'])
         self._check(self._values)
-        self._began: float | None = None
-        self._times_lost: Newest[float] = Newest()
-        self._lost_before = self._held_back = 0.0
         self._period = 1.0 / self._values['rate']
-        self._done = False
+        self._pilot: Pilot | None = None
+        self._held: Held | None = None
+        self._times_lost: Newest[float] = Newest()
         watch(self, SPECS, self._check, self._values.update)
         self._diagnostics = Diagnostics(self, self._health)
         self._publisher = self.create_publisher(TwistStamped, 'cmd_vel', OUTPUT)
-        self.create_subscription(WristStatus, 'wrist_status', self._on_status, NEWEST)
+        self._take_up(self._values['maneuver'])
         self.create_timer(self._period, self._tick)
+
+    def _take_up(self, maneuver: str) -> None:
+        if maneuver == 'joystick':
+            self._held = Held(self._joystick(), self._values['joy_timeout'])
+            self.create_subscription(Joy, 'joy', self._on_joy, NEWEST)
+        elif maneuver != 'constant':
+            self._pilot = Pilot(make_maneuver(maneuver, self._values['speed']), self._period)
+            self.create_subscription(WristStatus, 'wrist_status', self._on_status, NEWEST)
+
+    def _joystick(self) -> Joystick:
+        x, y, z = (round(number) for number in self._values['joy_axes'])
+        p, q, r = self._values['joy_scales']
+        button = round(self._values['enable_button'])
+        return Joystick((x, y, z), (p, q, r), self._values['joy_deadzone'], button)
 
     @staticmethod
     def _check(values: dict[str, Any]) -> None:
-        rates = values.get('constant_rates', [0.0, 0.0, 0.0])
-        if len(rates) != 3:
-            raise InvalidValueError(
-                f'constant_rates has {len(rates)} values; give three: p, q and r in rad/s.'
-            )
+        for name in TRIPLES:
+            if name in values and len(values[name]) != 3:
+                raise InvalidValueError(
+                    f'{name} has {len(values[name])} values; give three: for p, q and r.'
+                )
 
     def _on_status(self, message: WristStatus) -> None:
         if math.isfinite(message.time_lost):
             self._times_lost.put(convert.seconds(message.header.stamp), message.time_lost)
+
+    def _on_joy(self, message: Joy) -> None:
+        assert self._held is not None
+        try:
+            self._held.take(message.axes, message.buttons, self._now())
+        except RefusedError as error:
+            self._diagnostics.refuse('joy', error)
+
+    def _now(self) -> float:
+        return convert.seconds_of(self.get_clock().now().nanoseconds)
 
     def _tick(self) -> None:
         now = self.get_clock().now()
@@ -93,31 +129,31 @@ class Operator(Node):
         self._publisher.publish(TwistStamped(header=header, twist=twist))
 
     def _rates(self, now: float) -> Sequence[float]:
-        if self._maneuver is None:
+        if self._held is not None:
+            return self._held.rates(now)
+        if self._pilot is None:
             rates: Sequence[float] = self._values['constant_rates']
             return rates
-        time_lost = self._times_lost.at(now) or 0.0
-        if self._began is None:
-            if self._publisher.get_subscription_count() < self._values['listeners']:
-                return STILL
-            self._began, self._lost_before = now, time_lost
-        time = now - self._began
-        if self._maneuver.waits:
-            time -= max(0.0, time_lost - self._lost_before) + self._held_back
-        if time >= self._maneuver.duration and not self._done:
-            self._done = True
-            self.get_logger().info(f'{self._maneuver.name} flown in {now - self._began:.2f} s.')
-        order = self._maneuver.order(time, self._period)
-        self._held_back += (1.0 - order.share) * self._period
-        return order.rates
+        if self._pilot.began is None and not self._is_heard():
+            return STILL
+        flying = not self._pilot.done
+        rates = self._pilot.rates(now, self._times_lost.at(now) or 0.0)
+        if flying and self._pilot.done:
+            self.get_logger().info(f'{self._pilot.maneuver.name} is flown.')
+        return rates
+
+    def _is_heard(self) -> bool:
+        return bool(self._publisher.get_subscription_count() >= self._values['listeners'])
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
-        if self._maneuver is None:
+        if self._held is not None:
+            return OK, 'Following the joystick.', {}
+        if self._pilot is None:
             return OK, f'Publishing constant rates {self._values["constant_rates"]}.', {}
-        if self._began is None:
+        if self._pilot.began is None:
             return OK, 'Waiting for somebody to listen to cmd_vel.', {}
-        doing = 'Flown' if self._done else 'Flying'
-        return OK, f'{doing} {self._maneuver.name}.', {}
+        doing = 'Flown' if self._pilot.done else 'Flying'
+        return OK, f'{doing} {self._pilot.maneuver.name}.', {}
 
 
 def main() -> None:
