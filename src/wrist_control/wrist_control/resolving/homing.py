@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from wrist_control.resolving.limits import joint_overruns, smallest_share
 from wrist_control.resolving.step import State
-from wrist_control.wrists.wrist import Joint, Positions, Wrist
+from wrist_control.wrists.wrist import Joint, Wrist
 
 # Speeds for joints without a rate limit of their own: rad/s, m/s.
 CALM = {'revolute': 0.5, 'prismatic': 0.02}
@@ -24,9 +24,8 @@ def step_towards(wrist: Wrist, state: State, aim: Sequence[float], dt: float) ->
     """
     joints = [_calm(joint) for joint in wrist.joints]
     share = smallest_share(joint_overruns(joints, state.positions, tuple(aim), dt))
-    positions: Positions = tuple(
-        old + share * (new - old) for old, new in zip(state.positions, aim, strict=True)
-    )
+    way = zip(state.positions, aim, strict=True)
+    positions = wrist.assembled([old + share * (new - old) for old, new in way], state.pose)
     return State(positions, wrist.forward(positions), (), state.time_lost)
 
 

@@ -101,11 +101,17 @@ class Supervisor:
 
         Raises:
             RefusedError: Wrong names, lengths or numbers; nothing has changed.
-            UnreachableError: A start that the mechanism cannot take; nothing has changed.
+            UnreachableError: A start that the mechanism cannot take; nothing has changed, but
+                where the joints are was never known it is a fault: to go on would be a jump.
         """
         measured = self._sorted(names, positions)
         if not self._moved and self.mode is Mode.FOLLOWING:
-            self._adopt(measured)
+            try:
+                self._adopt(measured)
+            except WristError as error:
+                if self._measured is None:
+                    self._fail(str(error))
+                raise
         self._measured = measured
         self._watch_lag(measured, now)
 
@@ -187,7 +193,8 @@ class Supervisor:
         )
         made = resting(self.wrist, self.state)._replace(joint_rates=rates)
         if arrived(self.state, aim):
-            self.state = start(self.wrist, aim)
+            self._adopt(aim)
+            self.state = self.state._replace(time_lost=0.0)
             self.mode = Mode.FOLLOWING
             self._commands.forget()
         message = 'Resetting: on the way back to initial_positions; commands do not count now.'
@@ -206,7 +213,9 @@ class Supervisor:
         return self._stand_still()
 
     def _adopt(self, measured: Positions) -> None:
-        self.state = State(measured, self.wrist.forward(measured), time_lost=self.state.time_lost)
+        positions = self.wrist.assembled(measured, self.state.pose)
+        pose = self.wrist.forward(positions)
+        self.state = State(positions, pose, time_lost=self.state.time_lost)
 
     def _sorted(self, names: Sequence[str], positions: Sequence[float]) -> Positions:
         expected = [joint.name for joint in self.wrist.joints]

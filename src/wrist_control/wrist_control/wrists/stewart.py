@@ -30,6 +30,8 @@ INCH = 0.0254
 EDGE = 0.01
 # The room above EDGE may not shrink faster than itself over this time, s.
 HORIZON = 0.5
+# Lengths this much further on than a pose belong to it only if they fit no other, m.
+FAR = 0.02
 # A leg shorter than this share of the platform's size has no direction to speak of.
 SHORTEST = 1e-6
 
@@ -203,10 +205,29 @@ class Stewart(Wrist):
         """
         if isinstance(positions, LegLengths):
             return positions.pose
-        solution = self.forward_kinematics.solve(tuple(float(x) for x in positions))
+        return self._proved(positions, self.home.pose, 'home')
+
+    def assembled(self, positions: Sequence[float], near: Pose) -> LegLengths:
+        """Return the lengths with the pose that the legs hold, continued from a pose before.
+
+        Raises:
+            UnreachableError: No pose could be proved to be the one that `near` leads to; or the
+                lengths are far from there, and fit another pose as well.
+        """
+        pose = self._proved(positions, near, 'the pose before')
+        travel = max(abs(x - y) for x, y in zip(positions, self.held(near), strict=True))
+        if travel > FAR and self.forward_kinematics.cold_start(positions).others:
+            raise UnreachableError(
+                f'The lengths {tuple(positions)} m fit more than one pose; set initial_positions '
+                f'within {FAR:g} m of them, or drive the legs home.'
+            )
+        return self.held(pose)
+
+    def _proved(self, positions: Sequence[float], near: Pose, name: str) -> Pose:
+        solution = self.forward_kinematics.solve(positions, near)
         if solution.pose is None or solution.status != Status.CONVERGED:
             raise UnreachableError(
-                f'The lengths {tuple(positions)} m have no pose that home is proved to lead to '
+                f'The lengths {tuple(positions)} m have no pose that {name} is proved to lead to '
                 f'({solution.status.name}).'
             )
         return solution.pose

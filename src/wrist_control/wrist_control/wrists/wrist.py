@@ -110,6 +110,18 @@ class Wrist:
         """
         raise NotImplementedError
 
+    def assembled(self, positions: Sequence[float], near: Pose) -> Positions:
+        """Return joint positions that know which pose they hold, where numbers alone do not.
+
+        Args:
+            positions: Joint positions as plain numbers, rad or m.
+            near: The pose of the hand before; what follows from it without a jump is meant.
+
+        Raises:
+            UnreachableError: The mechanism cannot be assembled there, or it is not sure how.
+        """
+        return tuple(positions)
+
     def jacobian(self, positions: Sequence[float]) -> np.ndarray:
         """Return the hand twist per joint rate, shape (twist_size, joints), hand axes."""
         raise NotImplementedError
