@@ -46,7 +46,7 @@ def draw_flight(flight: Flight, title: str) -> Figure:
 def save(figure: Figure, path: Path) -> Path:
     """Write a picture and close it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=130)
+    figure.savefig(path, dpi=100)
     plt.close(figure)
     return path
 
