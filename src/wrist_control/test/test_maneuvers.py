@@ -31,6 +31,7 @@ def asked(maneuver, dt):
         total += dt * np.abs(order.rates)
         clock += order.share * dt
         steps += 1
+        assert steps < 10_000
     return total, steps
 
 

@@ -117,6 +117,13 @@ def test_near_lock_nothing_flips_by_half_a_turn(psi, side, phi, exponent, beyond
     np.testing.assert_allclose(WRIST.forward(found).rotation, shaken, atol=1e-8)
 
 
+@given(angles, st.floats(-7.0, -2.0), angles, st.tuples(*(st.floats(-0.5, 0.5),) * 3))
+def test_near_lock_the_hand_is_still_where_the_gimbals_say(psi, exponent, phi, off):
+    positions = (psi, LOCKED - 10.0**exponent, phi)
+    found = WRIST.inverse(WRIST.forward(positions), np.array(positions) + off)
+    np.testing.assert_allclose(found, positions, atol=1e-7)
+
+
 @given(angles, st.floats(1e-4, 0.05), st.sampled_from([-1.0, 1.0]))
 def test_pitching_over_the_pole_takes_theta_beyond_90_degrees(psi, angle, side):
     positions = (psi, side * (LOCKED - 10.4 * angle), 0.0)
