@@ -117,7 +117,7 @@ def path_error(flight: Flight) -> float:
     """
     follows = followed(flight.wrist)
     dt = flight.time[1] - flight.time[0]
-    wanted = flight.scale_factor[:, None] * flight.command[:, -3:]
+    wanted = flight.scale_factor[:, None] * flight.command
     wanted = np.where(follows, wanted, flight.achieved[:, -3:])
     path = quaternion_of(flight.hand_rotation[0])
     largest = 0.0

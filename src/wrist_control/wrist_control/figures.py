@@ -52,7 +52,7 @@ def save(figure: Figure, path: Path) -> Path:
 
 
 def _inputs(axes: Axes, flight: Flight) -> None:
-    effective = np.degrees(flight.command[:, -3:] * flight.scale_factor[:, None])
+    effective = np.degrees(flight.command * flight.scale_factor[:, None])
     _lines(axes, flight.time, effective, ('p', 'q', 'r'), steps=True)
     _label(axes, '(a) Effective operator inputs', 'deg/s')
 
@@ -66,7 +66,7 @@ def _rates(axes: Axes, flight: Flight) -> None:
     rates = np.degrees(flight.joint_rates)
     _lines(axes, flight.time, rates, [f'{name} rate' for name in _names(flight)], steps=True)
     _label(axes, '(c) Joint rates', 'deg/s')
-    usual = max(1.0, float(np.degrees(np.abs(flight.command[:, -3:]).max())))
+    usual = max(1.0, float(np.degrees(np.abs(flight.command).max())))
     if np.abs(rates).max() > CROWDED * usual:
         axes.set_ylim(-2.5 * usual, 2.5 * usual)
         row, joint = np.unravel_index(np.abs(rates).argmax(), rates.shape)

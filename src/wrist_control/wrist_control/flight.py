@@ -12,7 +12,7 @@ import numpy as np
 from wrist_control.errors import InvalidValueError
 from wrist_control.maneuvers import Maneuver, make_maneuver
 from wrist_control.resolving import State, Step, start, step
-from wrist_control.rotations import to_forearm
+from wrist_control.rotations import Vector, to_forearm
 from wrist_control.wrists import Wrist, make_wrist
 
 # [Barker1986]: a 6-in. probe along the hand's x axis.
@@ -29,7 +29,7 @@ class Flight:
         wrist: The mechanism that flew.
         maneuver: What it was asked to do.
         time: s, shape (n,).
-        command: Commanded p, q, r, rad/s, shape (n, 3); twists (n, 6) for a wrist that takes them.
+        command: Commanded p, q, r, rad/s, shape (n, 3).
         achieved: The twist really made, (vx, vy, vz, p, q, r) in hand axes, shape (n, 6).
         joint_positions: rad or m, shape (n, joints).
         joint_rates: The real increments over each step, rad/s or m/s, shape (n, joints).
@@ -106,7 +106,7 @@ def fly(
     return _flight(wrist, maneuver, 1.0 / rate, rows, probe, completed)
 
 
-Row = tuple[State, tuple[float, ...], Step]
+Row = tuple[State, Vector, Step]
 
 
 def _rows(
@@ -124,9 +124,8 @@ def _rows(
         waited = held_back + state.time_lost if maneuver.waits else 0.0
         time = len(rows) * dt - waited
         order = maneuver.order(time, dt)
-        command = (*linear, *order.rates)
-        made = step(wrist, state, command, dt)
-        rows.append((state, command, made))
+        made = step(wrist, state, (*linear, *order.rates), dt)
+        rows.append((state, order.rates, made))
         if time >= maneuver.duration - 1e-9:
             return rows, True
         lost = made.state.time_lost - state.time_lost

@@ -40,7 +40,7 @@ def recorded_flight(
         wrist=wrist,
         maneuver=maneuver,
         time=dt * np.arange(len(statuses)),
-        command=asked[:, -wrist.twist_size :],
+        command=asked[:, -3:],
         achieved=np.array([convert.twist_values(status.achieved) for status in statuses]),
         joint_positions=positions,
         joint_rates=np.array([command.velocity for command in commands]),
