@@ -29,7 +29,7 @@ def test_every_array_has_one_row_for_each_time(name):
     n, joints = len(flight.time), len(flight.wrist.joints)
     assert {key: array.shape for key, array in arrays(flight).items()} == {
         'time': (n,),
-        'command': (n, flight.wrist.twist_size),
+        'command': (n, 3),
         'achieved': (n, 6),
         'joint_positions': (n, joints),
         'joint_rates': (n, joints),

@@ -67,7 +67,7 @@ def fly(
     joint_rate_limits: float | Sequence[float] | None = None,
     *,
     initial_positions: Sequence[float] | None = None,
-    probe: tuple[float, float, float] = PROBE,
+    probe: Vector = PROBE,
     patience: float = 30.0,
     progress: Callable[[float], object] | None = None,
     **dimensions: Any,
@@ -141,7 +141,7 @@ def _flight(
     maneuver: Maneuver,
     dt: float,
     rows: list[Row],
-    probe: tuple[float, float, float],
+    probe: Vector,
     completed: bool,
 ) -> Flight:
     states = [state for state, _, _ in rows]
