@@ -12,6 +12,7 @@ PACKAGE = 'wrist_control'
 NODES = [
     'joint_simulator',
     'operator',
+    'stewart_forward_kinematics',
 ]
 
 

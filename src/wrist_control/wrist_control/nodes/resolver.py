@@ -19,13 +19,13 @@ from wrist_control.nodes.diagnostics import ERROR, OK, WARN, Diagnostics
 from wrist_control.nodes.parameters import declare, watch
 from wrist_control.nodes.qos import NEWEST
 from wrist_control.nodes.resolver_outputs import Outputs
-from wrist_control.nodes.resolver_settings import limited, settings, specs
+from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
 from wrist_control.nodes.running import run
 from wrist_control.nodes.wrong_types import WrongTypes
 from wrist_control.resolving.commands import RefusedError, accept
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.supervisor import Outcome, Supervisor
-from wrist_control.wrists import WRISTS, wrist_class
+from wrist_control.wrists import WRISTS
 
 LEVELS = {
     WristState.LIMITED: WARN,
@@ -56,8 +56,8 @@ class Resolver(Node):
         super().__init__(f'{wrist_name}_resolver', **node_options)
         wanted = specs(wrist_name)
         self._values = declare(self, wanted)
-        wrist = limited(self._mechanism(wrist_name), self._values)
-        self._supervisor = Supervisor(wrist, settings(self._values))
+        wrist = limited(mechanism(wrist_name, self._values), self._values)
+        self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
         self._outcome = self._supervisor.tick(0.0, 0.0)
         self._warned_unstamped = False
@@ -69,10 +69,6 @@ class Resolver(Node):
         self._wrong_types = WrongTypes(self, TYPES)
         self._listen()
         self.create_timer(1.0 / self._values['rate'], self._tick)
-
-    def _mechanism(self, wrist_name: str) -> Any:
-        made = wrist_class(wrist_name)
-        return made(**{name: self._values[name] for name in made.dimensions()})
 
     def _listen(self) -> None:
         self.create_subscription(TwistStamped, 'cmd_vel', self._on_stamped, NEWEST)
@@ -143,7 +139,7 @@ class Resolver(Node):
     def _apply(self, changed: dict[str, Any]) -> None:
         self._values.update(changed)
         self._supervisor.wrist = limited(self._supervisor.wrist, self._values)
-        self._supervisor.settings = settings(self._values)
+        self._supervisor.settings = settings(self._supervisor.wrist, self._values)
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
         outcome: Outcome = self._outcome

@@ -12,25 +12,50 @@ from wrist_control.wrists import Wrist, wrist_class
 
 # What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.
 CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
+# Lists of numbers that a mechanism takes beside its dimensions; they do not count when empty.
+POINTS = {
+    'stewart': {
+        'platform_anchors': 'x, y, z of the six platform anchors, platform axes, 18 numbers, '
+        'instead of platform_radius and platform_angle; not given when empty',
+        'base_anchors': 'x, y, z of the six base anchors, base axes, 18 numbers, instead of '
+        'base_radius and base_angle; not given when empty',
+    }
+}
+
+
+def mechanism_specs(wrist_name: str) -> list[Spec]:
+    """Return the parameters that describe the geometry of one wrist."""
+    dimensions = [
+        Spec(
+            name, default, facts['description'], facts['unit'], facts['minimum'], facts['maximum']
+        )
+        for name, (default, facts) in wrist_class(wrist_name).dimensions().items()
+    ]
+    points = [Spec(name, [], says, 'm') for name, says in POINTS.get(wrist_name, {}).items()]
+    return dimensions + points
+
+
+def mechanism(wrist_name: str, values: Mapping[str, Any]) -> Wrist:
+    """Return the wrist that the parameters describe, with the limits of its own.
+
+    Raises:
+        InvalidValueError: There is no such mechanism.
+    """
+    kind = wrist_class(wrist_name)
+    given = {name: values[name] for name in kind.dimensions()}
+    points = {name: values[name] for name in POINTS.get(wrist_name, {}) if values[name]}
+    return kind(**given, **points)
 
 
 def specs(wrist_name: str) -> list[Spec]:
     """Return the parameters of one wrist's resolver."""
-    kind = wrist_class(wrist_name)
-    wrist = kind()
-    joints = wrist.joints
-    own = [
-        Spec(
-            name, default, facts['description'], facts['unit'], facts['minimum'], facts['maximum']
-        )
-        for name, (default, facts) in kind.dimensions().items()
-    ]
+    joints = wrist_class(wrist_name)().joints
     unit = 'm' if joints[0].kind == 'prismatic' else 'rad'
     careful = [min(CAREFUL[joint.kind], joint.rate_limit) for joint in joints]
     order = ', '.join(joint.name for joint in joints)
     each = f'one for each of {order}, or one for all'
     return [
-        *own,
+        *mechanism_specs(wrist_name),
         Spec('rate', 100.0, 'Steps per second, from the node clock', 'Hz', 1.0, 2000.0),
         Spec(
             'command_timeout',
@@ -66,8 +91,8 @@ def specs(wrist_name: str) -> list[Spec]:
         ),
         Spec(
             'initial_positions',
-            list(wrist.home),
-            f'Where the joints start, one for each of {order}',
+            [],
+            f"Where the joints start, one for each of {order}; the wrist's home when empty",
             unit,
         ),
         Spec('forearm_frame', 'forearm', 'Name of the frame that the wrist stands on'),
@@ -89,11 +114,11 @@ def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
     )
 
 
-def settings(values: Mapping[str, Any]) -> Settings:
+def settings(wrist: Wrist, values: Mapping[str, Any]) -> Settings:
     """Return what the supervisor is told of the parameters."""
     return Settings(
         dt=1.0 / values['rate'],
         command_timeout=values['command_timeout'],
         stop_time=values['stop_time'],
-        initial_positions=tuple(values['initial_positions']),
+        initial_positions=tuple(values['initial_positions']) or wrist.home,
     )

@@ -1,0 +1,190 @@
+"""The forward kinematics of the Stewart platform: leg lengths in, proved poses out."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import replace
+from typing import Any
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseWithCovariance, PoseWithCovarianceStamped, TwistStamped
+from rclpy.node import Node
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
+
+from wrist_control.nodes import convert
+from wrist_control.nodes.diagnostics import OK, WARN, Diagnostics
+from wrist_control.nodes.parameters import Spec, declare
+from wrist_control.nodes.qos import NEWEST, OUTPUT
+from wrist_control.nodes.resolver_settings import mechanism, mechanism_specs
+from wrist_control.nodes.running import run
+from wrist_control.nodes.wrong_types import WrongTypes
+from wrist_control.resolving.commands import RefusedError
+from wrist_control.stewart.observer import Observed, Observer, Settings, in_metres_and_radians
+from wrist_control.wrists.stewart import Stewart
+from wrist_interfaces.msg import ForwardKinematicsStatus
+
+EACH = 'one for each leg, or one for all'
+SPECS = [
+    *mechanism_specs('stewart'),
+    Spec('joint_lower_limits', [0.0], f'Shortest length that is believed, {EACH}', 'm', 0.0),
+    Spec('joint_upper_limits', [math.inf], f'Longest length that is believed, {EACH}', 'm', 0.0),
+    Spec('length_noise', [1e-4], f'Standard deviation of a length reading, {EACH}', 'm', 0.0),
+    Spec(
+        'jump_limit',
+        0.5,
+        'The fastest that a leg moves; readings further apart are refused; .inf for no limit',
+        'm/s',
+        1e-6,
+    ),
+    Spec(
+        'gap_limit',
+        1.0,
+        'After this long without a good pose the search from home starts again',
+        's',
+        0.001,
+        3600.0,
+    ),
+    Spec('base_frame', 'forearm', 'Name of the frame that platform_pose is given in'),
+    Spec('platform_frame', 'hand', 'Name of the frame that platform_twist is given in'),
+    Spec('joint_prefix', '', 'Put before every joint name'),
+]
+NO_DATA = 'No leg lengths have come yet; is joint_states published, with leg_1 to leg_6 in it?'
+
+
+class StewartForwardKinematics(Node):
+    """Publishes the pose of the platform, and how much of it is proved.
+
+    `platform_pose` and `platform_twist` are published for a CONVERGED answer only: whoever hears
+    them need not listen to `forward_kinematics_status` to be safe. That is published for every
+    reading that could be one of this platform's, and NO_DATA once a second until the first.
+    """
+
+    def __init__(self, **node_options: Any) -> None:
+        """Declare the parameters and start listening.
+
+        Args:
+            node_options: Passed on to rclpy.
+
+        Raises:
+            WristError: A parameter cannot be used; the sentence says why.
+        """
+        super().__init__('stewart_forward_kinematics', **node_options)
+        self._values = values = declare(self, SPECS)
+        self._wrist = self._platform()
+        self._observer = Observer(
+            self._wrist,
+            Settings(values['length_noise'], values['jump_limit'], values['gap_limit']),
+        )
+        self._status = ForwardKinematicsStatus(
+            status=ForwardKinematicsStatus.NO_DATA, error_bound=math.nan, message=NO_DATA
+        )
+        self._last_good = self.get_clock().now()  # or the start, before the first
+        self._refused = ''
+        self._diagnostics = Diagnostics(self, self._health)
+        self._wrong_types = WrongTypes(self, {'joint_states': 'sensor_msgs/msg/JointState'})
+        self._poses = self.create_publisher(PoseWithCovarianceStamped, 'platform_pose', OUTPUT)
+        self._twists = self.create_publisher(TwistStamped, 'platform_twist', OUTPUT)
+        self._statuses = self.create_publisher(
+            ForwardKinematicsStatus, 'forward_kinematics_status', OUTPUT
+        )
+        self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
+        self._waiting = self.create_timer(1.0, self._wait)
+
+    def _platform(self) -> Stewart:
+        values = self._values
+        wrist = mechanism('stewart', values).with_limits(
+            lower=values['joint_lower_limits'], upper=values['joint_upper_limits']
+        )
+        named = [
+            joint._replace(name=values['joint_prefix'] + joint.name) for joint in wrist.joints
+        ]
+        made: Any = replace(wrist, joints=tuple(named))
+        return made
+
+    def _on_joint_states(self, message: JointState) -> None:
+        stamp = message.header.stamp
+        if convert.seconds(stamp) is None:
+            stamp = self.get_clock().now().to_msg()
+        seconds = convert.seconds_of(stamp.sec * 10**9 + stamp.nanosec)
+        try:
+            observed = self._observer.take(message.name, message.position, seconds)
+        except RefusedError as error:
+            self._refuse(error)
+            return
+        if observed.solution.pose is None:
+            reason = observed.solution.status.name.lower()
+            self._refuse(RefusedError(reason, observed.message))
+        elif observed.covariance is not None:
+            self._last_good, self._refused = self.get_clock().now(), ''
+        self._publish(self._with_twist(observed, message), stamp)
+
+    def _with_twist(self, observed: Observed, message: JointState) -> Observed:
+        try:
+            return self._observer.with_twist(observed, message.name, message.velocity)
+        except RefusedError as error:
+            self._refuse(error)
+            return observed
+
+    def _refuse(self, error: RefusedError) -> None:
+        self._refused = str(error)
+        self._diagnostics.refuse('joint_states', error)
+
+    def _publish(self, observed: Observed, stamp: Time) -> None:
+        self._waiting.cancel()
+        in_base = Header(stamp=stamp, frame_id=self._values['base_frame'])
+        in_platform = Header(stamp=stamp, frame_id=self._values['platform_frame'])
+        if observed.covariance is not None and observed.solution.pose is not None:
+            pose = convert.pose_message(in_base, observed.solution.pose).pose
+            covariance = observed.covariance.ravel()
+            self._poses.publish(
+                PoseWithCovarianceStamped(
+                    header=in_base, pose=PoseWithCovariance(pose=pose, covariance=covariance)
+                )
+            )
+        if observed.twist is not None:
+            twist = convert.twist_message(observed.twist)
+            self._twists.publish(TwistStamped(header=in_platform, twist=twist))
+        self._status = self._status_message(in_base, observed)
+        self._statuses.publish(self._status)
+
+    def _status_message(self, header: Header, observed: Observed) -> ForwardKinematicsStatus:
+        error, unique = in_metres_and_radians(observed.solution, self._wrist.size)
+        return ForwardKinematicsStatus(
+            header=header,
+            status=int(observed.solution.status),
+            iterations=observed.solution.iterations,
+            error_bound=error if math.isfinite(error) else math.nan,
+            unique_radius=unique,
+            message=observed.message,
+        )
+
+    def _wait(self) -> None:
+        stamp = self.get_clock().now().to_msg()
+        self._status.header = Header(stamp=stamp, frame_id=self._values['base_frame'])
+        self._statuses.publish(self._status)
+
+    def _health(self) -> tuple[bytes, str, dict[str, str]]:
+        status = self._status
+        age = 1e-9 * (self.get_clock().now() - self._last_good).nanoseconds
+        values = {
+            'status': str(status.status),
+            'iterations': str(status.iterations),
+            'error bound': f'{status.error_bound:.3g}',
+            'unique radius': f'{status.unique_radius:.3g}',
+            'time without a good pose': f'{age:.3f} s',
+            'last refused': self._refused or 'nothing since the last good pose',
+        }
+        for (publisher, topic), sentence in self._wrong_types.found.items():
+            values[f'{publisher} on {topic}'] = sentence
+        if status.status != ForwardKinematicsStatus.CONVERGED or self._wrong_types.found:
+            return WARN, status.message, values
+        if age > self._values['gap_limit']:
+            return WARN, f'No good pose for {age:.1f} s; check joint_states.', values
+        return OK, status.message, values
+
+
+def main() -> None:
+    """Run the forward kinematics of the Stewart platform."""
+    sys.exit(run(StewartForwardKinematics))
