@@ -14,12 +14,12 @@ from wrist_control.stewart.certificate import BRANCH, Proof
 from wrist_control.stewart.quadratics import (
     Coefficients,
     Nine,
-    Three,
+    Rows,
     beta,
     inverse,
     point,
 )
-from wrist_control.stewart.stages import Track
+from wrist_control.stewart.stages import Track, unknowns
 from wrist_control.stewart.tracking import LOW, MOST_CORRECTIONS, ROUNDING, SHARP
 
 # So many at a time stay in the processor's cache.
@@ -53,7 +53,7 @@ class Roots(NamedTuple):
     left: Array
     iterations: Array
     origin: Nine[Array]
-    rows: tuple[Three[Array], Three[Array], Three[Array]]
+    rows: Rows[Array]
 
 
 def checked(lengths: Array) -> Array:
@@ -108,21 +108,8 @@ def starts(near: Pose, size: float, part: slice = slice(None)) -> Array:
     quaternions, positions = np.atleast_2d(near.quaternion), np.atleast_2d(near.position)
     if len(quaternions) > 1:
         quaternions, positions = quaternions[part], positions[part]
-    a1, a2, a3, a4 = quaternions.T
-    x, y, z = positions.T / size
-    return np.stack(
-        np.broadcast_arrays(
-            x,
-            y,
-            a1 * a1 - a2 * a2 - a3 * a3 + a4 * a4,
-            2.0 * (a3 * a4 - a1 * a2),
-            2.0 * (a3 * a4 + a1 * a2),
-            a1 * a1 - a2 * a2 + a3 * a3 - a4 * a4,
-            z,
-            2.0 * (a2 * a4 - a1 * a3),
-            2.0 * (a2 * a3 + a1 * a4),
-        )
-    )
+    columns = Pose(quaternions.T, positions.T)  # type: ignore[arg-type]
+    return np.stack(np.broadcast_arrays(*unknowns(columns, size)))
 
 
 def chunks(n: int) -> Iterator[slice]:

@@ -10,6 +10,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+# Makes a named tuple from a tuple in a third of the time that its class takes: new(Proof, (…)).
+new = tuple.__new__
+
 
 class Proof(NamedTuple):
     """What is proved around a trial point: a root within `error`, and no other within `unique`.
@@ -41,7 +44,7 @@ def kantorovich(beta: float, eta: float) -> Proof:
         return NOTHING
     root = 1.0 + math.sqrt(discriminant)
     # The smaller radius as η / (larger radius · β): no digits lost when η is tiny.
-    return Proof(2.0 * eta / root, root / (2.0 * beta))
+    return new(Proof, (2.0 * eta / root, root / (2.0 * beta)))
 
 
 def moved(beta: float, distance: float) -> float:

@@ -12,6 +12,7 @@ import numpy as np
 
 from wrist_control.rotations import Pose
 from wrist_control.stewart import assembly, batch, general, quadratics, stages, tracking
+from wrist_control.stewart.certificate import new
 from wrist_control.stewart.geometry import Anchors, hold_at
 from wrist_control.stewart.measurement import check_lengths, impossible_pair
 from wrist_control.stewart.stages import Track
@@ -37,6 +38,10 @@ class Status(IntEnum):
     UNREACHABLE = 2
     DIVERGED = 3
     NEAR_SINGULAR = 4
+
+
+# Looking up a member of an enumeration costs as much as a call.
+CONVERGED, UNPROVEN, NEAR_SINGULAR = Status.CONVERGED, Status.UNPROVEN, Status.NEAR_SINGULAR
 
 
 class Solution(NamedTuple):
@@ -116,6 +121,8 @@ class ForwardKinematics:
         self.platform, self.base, self.size, self.home = platform, base, size, home
         self.planar = quadratics.coefficients(platform, base, size)
         self._any = general.scaled(platform, base, size)
+        # The last answer and where it came from: a start from there needs no new linearisation.
+        self._last: tuple[Pose | None, Track | None] = (None, None)
 
     def solve(self, lengths: Sequence[float], near: Pose | None = None) -> Solution:
         """Return the pose that `near` leads to when its legs go straight to these lengths.
@@ -130,15 +137,25 @@ class ForwardKinematics:
         Raises:
             InvalidValueError: Not six finite lengths above 0; the text says which.
         """
-        lengths = tuple(map(float, lengths))
-        if len(lengths) != 6 or not 0.0 < min(lengths) <= sum(lengths) < math.inf:
+        if len(lengths) != 6:
             check_lengths(lengths)
-        start = stages.unknowns(self.home if near is None else near, self.size)
+        l1, l2, l3, l4, l5, l6 = lengths = tuple(map(float, lengths))
+        # Six comparisons cost less than min and sum.
+        positive = l1 > 0.0 < l2 and l3 > 0.0 < l4 and l5 > 0.0 < l6
+        if not positive or math.inf in lengths:
+            check_lengths(lengths)
+        pose, track = self._last  # one look: another thread may solve, too
+        if near is pose and track is not None:
+            start, tangent = track.at, track.tangent
+        else:
+            start, tangent = stages.unknowns(self.home if near is None else near, self.size), None
         if self.planar is not None:
             goal = quadratics.right_side(self.planar, lengths)
-            track = tracking.solve(self.planar, goal, start)
+            track = tracking.solve(self.planar, goal, start, tangent)
             if track is not None and track.followed:
-                return self._solution(track)
+                solution = self._solution(track)
+                self._last = solution.pose, track
+                return solution
         return self._solve_far(lengths, start)
 
     def _solve_far(self, lengths: Sequence[float], start: stages.Unknowns) -> Solution:
@@ -170,15 +187,15 @@ class ForwardKinematics:
         return other or track
 
     def _solution(self, track: Track) -> Solution:
-        size, at = self.size, track.at
-        error, unique = track.proof
+        size = self.size
+        at, iterations, (error, unique), followed, _ = track
+        x, y, _, _, _, _, z, _, _ = at
         # The root is within `error` of the unknowns; making a pose of them moves them no further.
-        bound = size * (3.0 * error + LAST_ROUNDING * (1.0 + abs(at[0]) + abs(at[1]) + abs(at[6])))
-        status = Status.CONVERGED if track.followed else Status.UNPROVEN
+        bound = size * (3.0 * error + LAST_ROUNDING * (1.0 + abs(x) + abs(y) + abs(z)))
+        status = CONVERGED if followed else UNPROVEN
         if unique < NEAR_LOCK:
-            status = Status.NEAR_SINGULAR
-        pose = stages.pose_of(at, size)
-        return Solution(pose, status, track.iterations, bound, size * unique)
+            status = NEAR_SINGULAR
+        return new(Solution, (stages.pose_of(at, size), status, iterations, bound, size * unique))
 
     def solve_batch(self, lengths: np.ndarray, near: Pose | None = None) -> Solutions:
         """Return the poses of many sets of lengths.

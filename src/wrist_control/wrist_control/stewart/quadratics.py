@@ -35,6 +35,7 @@ Nine = tuple[
     Number, Number, Number, Number, Number, Number, Number, Number, Number
 ]  # x, y, u1, v1, u2, v2, z, u3, v3
 Triple = tuple[float, float, float]
+Rows = tuple[Three[Number], Three[Number], Three[Number]]
 # Change of x, y, v1, s, m, n per t: six rows.
 Free = tuple[Triple, Triple, Triple, Triple, Triple, Triple]
 
@@ -113,11 +114,12 @@ def point(
     )
 
 
-def inverse(free: Free, at: Nine[Number]) -> tuple[Three[Number], Three[Number], Three[Number]]:
+def inverse(free: Free, at: Nine[Number]) -> Rows[Number]:
     """Return the change of t per entry 22, 23, 33 of E while its first row stays zero, rows.
 
-    The inverse of the change of (aa, ab, bb) of E per t, where a = (−u₃/z, 1, 0) and
-    b = (−v₃/z, 0, 1) are orthogonal to h, so that a change of h does not count.
+    The inverse of the change of (aa/2, ab, bb/2) of E per t, where a = (−u₃/z, 1, 0) and
+    b = (−v₃/z, 0, 1) are orthogonal to h, so that a change of h does not count. With g and f per
+    t, the three are al g − …, ga g + al f − … and ga f − …
 
     Raises:
         ZeroDivisionError: The equations lock here; arrays hold inf or nan instead.
@@ -126,30 +128,30 @@ def inverse(free: Free, at: Nine[Number]) -> tuple[Three[Number], Three[Number],
     (x1, x2, x3), (y1, y2, y3), (w1, w2, w3), (s1, s2, s3), (m1, m2, m3), (n1, n2, n3) = free
     al, ga = u3 / z, v3 / z
     ua, ub, va, vb = u1 - al * x, u2 - al * y, v1 - ga * x, v2 - ga * y
-    ps, pm, px, py = al * al, -2.0 * al, 2.0 * al * ua, 2.0 * al * ub
-    a1 = ps * s1 + pm * m1 + px * x1 + py * y1 - 2.0 * ua
-    a2 = ps * s2 + pm * m2 + px * x2 + py * y2 - 2.0 * ub
-    a3 = ps * s3 + pm * m3 + px * x3 + py * y3
-    ps, px, py = al * ga, ga * ua + al * va, ga * ub + al * vb
-    b1 = ps * s1 - ga * m1 - al * n1 + px * x1 + py * y1 - ua * w1 - va
-    b2 = ps * s2 - ga * m2 - al * n2 + px * x2 + py * y2 - ua * w2 - vb
-    b3 = ps * s3 - ga * m3 - al * n3 + px * x3 + py * y3 - ua * w3 - ub
-    ps, pn, px, py, pw = ga * ga, -2.0 * ga, 2.0 * ga * va, 2.0 * ga * vb, -2.0 * va
-    c1 = ps * s1 + pn * n1 + px * x1 + py * y1 + pw * w1
-    c2 = ps * s2 + pn * n2 + px * x2 + py * y2 + pw * w2
-    c3 = ps * s3 + pn * n3 + px * x3 + py * y3 + pw * w3 - 2.0 * vb
+    h = 0.5 * al
+    g1 = h * s1 - m1 + ua * x1 + ub * y1
+    g2 = h * s2 - m2 + ua * x2 + ub * y2
+    g3 = h * s3 - m3 + ua * x3 + ub * y3
+    h = 0.5 * ga
+    f1 = h * s1 - n1 + va * x1 + vb * y1
+    f2 = h * s2 - n2 + va * x2 + vb * y2
+    f3 = h * s3 - n3 + va * x3 + vb * y3
+    a1, a2, a3 = al * g1 - ua, al * g2 - ub, al * g3
+    b1 = ga * g1 + al * f1 - ua * w1 - va
+    b2 = ga * g2 + al * f2 - ua * w2 - vb
+    b3 = ga * g3 + al * f3 - ua * w3 - ub
+    c1, c2, c3 = ga * f1 - va * w1, ga * f2 - va * w2, ga * f3 - va * w3 - vb
     r1, r2, r3 = b2 * c3 - b3 * c2, a3 * c2 - a2 * c3, a2 * b3 - a3 * b2
     k = 1.0 / (a1 * r1 + b1 * r2 + c1 * r3)
+    h = 0.5 * k
     return (
-        (r1 * k, r2 * k, r3 * k),
-        ((b3 * c1 - b1 * c3) * k, (a1 * c3 - a3 * c1) * k, (a3 * b1 - a1 * b3) * k),
-        ((b1 * c2 - b2 * c1) * k, (a2 * c1 - a1 * c2) * k, (a1 * b2 - a2 * b1) * k),
+        (r1 * h, r2 * k, r3 * h),
+        ((b3 * c1 - b1 * c3) * h, (a1 * c3 - a3 * c1) * k, (a3 * b1 - a1 * b3) * h),
+        ((b1 * c2 - b2 * c1) * h, (a2 * c1 - a1 * c2) * k, (a1 * b2 - a2 * b1) * h),
     )
 
 
-def beta(
-    known: Coefficients, at: Nine[Number], rows: tuple[Three[Number], Three[Number], Three[Number]]
-) -> Number:
+def beta(known: Coefficients, at: Nine[Number], rows: Rows[Number]) -> Number:
     """Return a bound on ‖(Δ of the unknowns)‖ per ‖Δ of E‖ (Frobenius): docs/equations.md.
 
     Args:

@@ -5,15 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from wrist_control.rotations import Pose, direction_cosines, quaternion_of, unit
-from wrist_control.stewart.certificate import Proof
-from wrist_control.stewart.quadratics import Nine, Six
+from wrist_control.rotations import Pose, quaternion_of, unit
+from wrist_control.stewart.certificate import Proof, new
+from wrist_control.stewart.quadratics import Nine, Rows, Six
 
 MOST_STAGES = 400
 # A stage shorter than this share of the rest of the way has met a lock.
 SHORTEST_STAGE = 1e-4
 
 Unknowns = Nine[float]
+
+
+class Tangent(NamedTuple):
+    """Where the equations of a planar platform were linearised, and `quadratics.inverse` there."""
+
+    origin: Unknowns
+    rows: Rows[float]
 
 
 class Track(NamedTuple):
@@ -24,12 +31,14 @@ class Track(NamedTuple):
         iterations: Corrections made on the way.
         proof: What is proved around `at`.
         followed: True when the root at `at` is proved to be the one that the start leads to.
+        tangent: The equations' last linearisation, where the solver can start from one.
     """
 
     at: Unknowns
     iterations: int
     proof: Proof
     followed: bool
+    tangent: Tangent | None = None
 
 
 Solve = Callable[[Six[float], Unknowns], 'Track | None']
@@ -83,9 +92,16 @@ def between(start: Six[float], goal: Six[float], share: float) -> Six[float]:
 
 
 def unknowns(pose: Pose, size: float) -> Unknowns:
-    """Return the unknowns at a pose."""
-    (u1, u2, u3), (v1, v2, v3), _ = direction_cosines(pose.quaternion)
-    x, y, z = pose.position
+    """Return the unknowns at a pose; of a `Pose` of arrays, shapes (4, n) and (3, n), as arrays.
+
+    The first two rows of `rotations.direction_cosines`, without the third.
+    """
+    (a1, a2, a3, a4), (x, y, z) = pose
+    s1, s2, s3, s4 = a1 * a1, a2 * a2, a3 * a3, a4 * a4
+    d2, d3, d4 = a2 + a2, a3 + a3, a4 + a4
+    a12, a13, a14, a23, a24, a34 = d2 * a1, d3 * a1, d4 * a1, d2 * a3, d2 * a4, d3 * a4
+    u1, u2, u3 = s1 - s2 - s3 + s4, a34 + a12, a24 - a13
+    v1, v2, v3 = a34 - a12, s1 - s2 + s3 - s4, a23 + a14
     return (x / size, y / size, u1, v1, u2, v2, z / size, u3, v3)
 
 
@@ -98,4 +114,4 @@ def pose_of(at: Unknowns, size: float) -> Pose:
         quaternion = unit((trace, u2 - v1, w1 - u3, v3 - w2))
     else:
         quaternion = quaternion_of(((u1, u2, u3), (v1, v2, v3), (w1, w2, w3)))
-    return Pose(quaternion, (x * size, y * size, z * size))
+    return new(Pose, (quaternion, (x * size, y * size, z * size)))
