@@ -185,8 +185,9 @@ def test_a_pilot_asks_a_hand_that_follows_for_what_a_flight_asks(rate):
 
 
 @pytest.mark.parametrize('delay', [0, 1, 2])
-def test_a_pilot_waits_for_a_slow_hand_to_within_the_steps_it_hears_late(delay):
-    _, angle = piloted(PITCH, 0.45, delay)
+@pytest.mark.parametrize('factor', [0.05, 0.1, 0.2, 0.24, 0.26, 0.3, 0.5, 0.8])
+def test_a_pilot_waits_for_a_slow_hand_to_within_the_steps_it_hears_late(factor, delay):
+    _, angle = piloted(PITCH, factor * BARKER_SPEED, delay)
     assert angle == pytest.approx(0.3, abs=(delay + 1) * BARKER_SPEED * H)
 
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.maneuvers import Maneuver, make_maneuver
-from wrist_control.resolving import State, Step, start, step
+from wrist_control.maneuvers import STILL, Maneuver, make_maneuver
+from wrist_control.resolving import State, Step, resting, start, step
 from wrist_control.rotations import Vector, to_forearm
 from wrist_control.wrists import Wrist, make_wrist
 
@@ -133,6 +133,7 @@ def _rows(
         state = made.state
         if progress is not None:
             progress(min(1.0, time / maneuver.duration))
+    rows.append((state, STILL, resting(wrist, state)))
     return rows, False
 
 

@@ -174,7 +174,8 @@ class Pilot:
         self.began: float | None = None
         self.done = False
         self._period = period
-        self._lost_before = self._held_back = 0.0
+        self._lost_before = self._lost = self._held_back = 0.0
+        self._share = 1.0
 
     def rates(self, now: float, time_lost: float) -> Vector:
         """Return p, q, r to ask for now, rad/s; the first call begins the maneuver.
@@ -184,11 +185,22 @@ class Pilot:
             time_lost: The time that the hand has lost so far, s; from any beginning.
         """
         if self.began is None:
-            self.began, self._lost_before = now, time_lost
+            self.began = now
+            self._lost_before = self._lost = time_lost
         time = now - self.began
         if self.maneuver.waits:
             time -= max(0.0, time_lost - self._lost_before) + self._held_back
         self.done = time >= self.maneuver.duration
         order = self.maneuver.order(time, self._period)
-        self._held_back += (1.0 - order.share) * self._period
+        self._held_back += (1.0 - order.share) * self._followed(order.share, time_lost)
         return order.rates
+
+    def _followed(self, share: float, time_lost: float) -> float:
+        """Return for how long the hand will follow an order, as far as is known by now, s.
+
+        A hand that was held to a speed is held to the same speed when less is asked for.
+        """
+        factor = max(0.0, 1.0 - max(0.0, time_lost - self._lost) / self._period)
+        ceiling = factor * self._share if factor < 1.0 - EARLY else math.inf
+        self._lost, self._share = time_lost, share
+        return self._period * min(1.0, ceiling / share)

@@ -43,11 +43,13 @@ def path_error(flight: Flight) -> float:
 
 
 def pause(flight: Flight) -> float:
-    """Return how much longer the probe stays near vertical than an unscaled one, s."""
-    near = flight.time[angle_from_vertical(flight) < NEAR_VERTICAL - 1e-9]
-    step = flight.time[1] - flight.time[0]
-    unscaled = near.min() + step  # one step in, one step out: 1° each
-    return float(near.max() - unscaled + step)
+    """Return how much longer the probe stays near vertical than it would without scaling, s."""
+    away = angle_from_vertical(flight)
+    lock = int(np.argmin(away))
+    entered = np.interp(-NEAR_VERTICAL, -away[: lock + 1], flight.time[: lock + 1])
+    left = np.interp(NEAR_VERTICAL, away[lock:], flight.time[lock:])
+    speed = np.abs(flight.command).max()
+    return float(left - entered - 2.0 * NEAR_VERTICAL / speed)
 
 
 def peak_rates(flight: Flight) -> np.ndarray:

@@ -1,6 +1,15 @@
 """From commanded hand rates to joint positions, one step at a time. No ROS and no clock."""
 
 from wrist_control.resolving.limits import LimitAtWork, LimitKind
-from wrist_control.resolving.step import SINGULAR_MARGIN, State, Step, start, step
+from wrist_control.resolving.step import SINGULAR_MARGIN, State, Step, resting, start, step
 
-__all__ = ['SINGULAR_MARGIN', 'LimitAtWork', 'LimitKind', 'State', 'Step', 'start', 'step']
+__all__ = [
+    'SINGULAR_MARGIN',
+    'LimitAtWork',
+    'LimitKind',
+    'State',
+    'Step',
+    'resting',
+    'start',
+    'step',
+]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from importlib import import_module
 from typing import Any
 
@@ -35,7 +36,7 @@ def make_wrist(name: str, **dimensions: Any) -> Wrist:
         InvalidValueError: No wrist of that name, or a dimension it does not have or accept.
     """
     made = wrist_class(name)
-    known = [key for key in made.__dataclass_fields__ if key != 'joints']
+    known = [own.name for own in fields(made) if own.name != 'joints']
     strange = [key for key in dimensions if key not in known]
     if strange:
         raise InvalidValueError(
