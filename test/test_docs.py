@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from wrist_control.nodes import joint_simulator, operator
+from wrist_control.nodes import joint_simulator, operator, stewart_forward_kinematics
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.resolver_settings import specs
 from wrist_control.wrists import WRISTS
@@ -71,7 +71,7 @@ def test_every_parameter_of_a_resolver_is_in_the_interfaces_document(wrist):
     assert missing == []
 
 
-@pytest.mark.parametrize('node', [operator, joint_simulator])
+@pytest.mark.parametrize('node', [operator, joint_simulator, stewart_forward_kinematics])
 def test_every_other_parameter_is_in_the_interfaces_document(node):
     missing = [spec.name for spec in node.SPECS if f'`{spec.name}`' not in INTERFACES]
     assert missing == []

@@ -12,15 +12,6 @@ from wrist_control.wrists import Wrist, wrist_class
 
 # What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.
 CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
-# Lists of numbers that a mechanism takes beside its dimensions; they do not count when empty.
-POINTS = {
-    'stewart': {
-        'platform_anchors': 'x, y, z of the six platform anchors, platform axes, 18 numbers, '
-        'instead of platform_radius and platform_angle; not given when empty',
-        'base_anchors': 'x, y, z of the six base anchors, base axes, 18 numbers, instead of '
-        'base_radius and base_angle; not given when empty',
-    }
-}
 
 
 def mechanism_specs(wrist_name: str) -> list[Spec]:
@@ -31,7 +22,10 @@ def mechanism_specs(wrist_name: str) -> list[Spec]:
         )
         for name, (default, facts) in wrist_class(wrist_name).dimensions().items()
     ]
-    points = [Spec(name, [], says, 'm') for name, says in POINTS.get(wrist_name, {}).items()]
+    points = [
+        Spec(name, [], f'{says}; not given when empty', 'm')
+        for name, says in wrist_class(wrist_name).point_lists().items()
+    ]
     return dimensions + points
 
 
@@ -43,7 +37,7 @@ def mechanism(wrist_name: str, values: Mapping[str, Any]) -> Wrist:
     """
     kind = wrist_class(wrist_name)
     given = {name: values[name] for name in kind.dimensions()}
-    points = {name: values[name] for name in POINTS.get(wrist_name, {}) if values[name]}
+    points = {name: values[name] for name in kind.point_lists() if values[name]}
     return kind(**given, **points)
 
 

@@ -50,6 +50,8 @@ SPECS = [
     Spec('platform_frame', 'hand', 'Name of the frame that platform_twist is given in'),
     Spec('joint_prefix', '', 'Put before every joint name'),
 ]
+# In place of a bound that is not known: nothing that is not finite leaves a node.
+UNKNOWN = -1.0
 NO_DATA = 'No leg lengths have come yet; is joint_states published, with leg_1 to leg_6 in it?'
 
 
@@ -78,7 +80,7 @@ class StewartForwardKinematics(Node):
             Settings(values['length_noise'], values['jump_limit'], values['gap_limit']),
         )
         self._status = ForwardKinematicsStatus(
-            status=ForwardKinematicsStatus.NO_DATA, error_bound=math.nan, message=NO_DATA
+            status=ForwardKinematicsStatus.NO_DATA, error_bound=UNKNOWN, message=NO_DATA
         )
         self._last_good = self.get_clock().now()  # or the start, before the first
         self._refused = ''
@@ -155,7 +157,7 @@ class StewartForwardKinematics(Node):
             header=header,
             status=int(observed.solution.status),
             iterations=observed.solution.iterations,
-            error_bound=error if math.isfinite(error) else math.nan,
+            error_bound=error if math.isfinite(error) else UNKNOWN,
             unique_radius=unique,
             message=observed.message,
         )

@@ -23,7 +23,7 @@ from wrist_control.stewart.geometry import (
     line,
     ring,
 )
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist, parameter
+from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist, parameter, points
 
 INCH = 0.0254
 # The hand stops at this margin: closer to lock the legs no longer hold it.
@@ -80,8 +80,13 @@ class Stewart(Wrist):
         math.radians(16.0), 'angle θ_B between the base anchors 1 and 2', 'rad', 0.0, 2.0944
     )
     home_height: float = parameter(17.0 * INCH, 'height z of the platform at home', 'm', 1e-6)
-    platform_anchors: Points | None = None
-    base_anchors: Points | None = None
+    platform_anchors: Points | None = points(
+        'x, y, z of the six platform anchors, platform axes, instead of platform_radius and '
+        'platform_angle'
+    )
+    base_anchors: Points | None = points(
+        'x, y, z of the six base anchors, base axes, instead of base_radius and base_angle'
+    )
 
     default_joints: ClassVar[tuple[Joint, ...]] = tuple(
         Joint(f'leg_{leg}', 'prismatic', lower=0.0) for leg in range(1, 7)

@@ -59,6 +59,11 @@ def parameter(
     return field(default=default, metadata=facts)
 
 
+def points(description: str) -> Any:
+    """Return a dataclass field for points in a row, x, y, z of each in m; None when not given."""
+    return field(default=None, metadata={'points': description})
+
+
 @dataclass(frozen=True)
 class Wrist:
     """A mechanism that turns a hand. Subclasses answer for one mechanism each.
@@ -79,7 +84,7 @@ class Wrist:
     def __post_init__(self) -> None:
         """Check every dimension and settle the joints."""
         for dimension in fields(self):
-            if dimension.metadata:
+            if 'minimum' in dimension.metadata:
                 _check_dimension(dimension.name, getattr(self, dimension.name), dimension.metadata)
         if not self.joints:
             object.__setattr__(self, 'joints', self.default_joints)
@@ -87,7 +92,18 @@ class Wrist:
     @classmethod
     def dimensions(cls) -> dict[str, tuple[Any, Any]]:
         """Return the mechanism's own parameters: name to default and what is valid."""
-        return {own.name: (own.default, own.metadata) for own in fields(cls) if own.metadata}
+        return {
+            own.name: (own.default, own.metadata)
+            for own in fields(cls)
+            if 'minimum' in own.metadata
+        }
+
+    @classmethod
+    def point_lists(cls) -> dict[str, str]:
+        """Return the mechanism's own lists of points: name to description."""
+        return {
+            own.name: own.metadata['points'] for own in fields(cls) if 'points' in own.metadata
+        }
 
     @property
     def home(self) -> Positions:
