@@ -441,3 +441,22 @@ def test_a_batch_with_another_number_of_poses_before_is_refused():
     assert len(found) == 4
     with pytest.raises(InvalidValueError, match=r'one for each of the 3 rows'):
         FK.solve_batch(lengths[:3], near)
+
+
+def test_tracking_from_its_own_answers_is_as_right_and_as_proved_as_from_any_pose():
+    """What is kept of the last answer makes the next one faster, never different."""
+    near = HOME
+    for step in range(1000):
+        phase = 2.0 * math.pi * step / 1000.0
+        turn = (0.2 * math.sin(phase), 0.15 * math.sin(2.0 * phase), 0.25 * math.sin(phase))
+        shift = 0.03 * math.sin(phase)
+        pose = Pose(turned(HOME.quaternion, turn, 1.0), (shift, -shift, HOME.position[2] + shift))
+        lengths = lengths_of(pose)
+        own = FK.solve(lengths, near)
+        copied = FK.solve(lengths, Pose(*near))
+        assert own.status == copied.status == Status.CONVERGED
+        assert own.error_bound < 1e-12
+        np.testing.assert_allclose(own.pose.position, pose.position, rtol=0.0, atol=1e-14)
+        np.testing.assert_allclose(own.pose.rotation, pose.rotation, rtol=0.0, atol=1e-13)
+        np.testing.assert_allclose(own.pose.position, copied.pose.position, rtol=0.0, atol=1e-14)
+        near = own.pose
