@@ -95,7 +95,7 @@ def test_the_basic_maneuver_ends_at_the_cone():
     flight = fly('single_hooke', 'basic_test', patience=2.0)
     assert not flight.completed
     np.testing.assert_allclose(np.degrees(flight.joint_positions[-1]), (0.0, 45.0, 0.0), atol=1e-6)
-    assert flight.limited[-1] == ('cone',)
+    assert flight.limited[-2] == ('cone',)
 
 
 @pytest.mark.parametrize('azimuth', np.radians([0.0, 20.0, 90.0, 200.0]))
