@@ -113,6 +113,20 @@ def graph() -> Iterator[Graph]:
 
 
 @pytest.fixture
+def until_ready() -> Callable[[Any], None]:
+    """Wait until a node's process, whose stderr is a pipe, says that it is ready."""
+
+    def wait(process: Any) -> None:
+        said = ''
+        while 'Ready' not in said:
+            line = process.stderr.readline()
+            assert line, f'it ended: {said}'
+            said += line
+
+    return wait
+
+
+@pytest.fixture
 def process_environment() -> dict[str, str]:
     """The environment for a test's own processes, in a domain of their own."""
     return {**os.environ, 'ROS_DOMAIN_ID': str(next_domain())}

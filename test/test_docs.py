@@ -4,7 +4,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -30,12 +29,13 @@ PROGRAMS = [line for line in COMMANDS if line.startswith('./env') and line not i
 
 
 @pytest.mark.parametrize('command', NODES)
-def test_every_node_in_the_readme_starts_and_ends_cleanly(process_environment, command):
+def test_every_node_in_the_readme_starts_and_ends_cleanly(
+    process_environment, until_ready, command
+):
     process = subprocess.Popen(
         command.split(), cwd=ROOT, env=process_environment, stderr=subprocess.PIPE, text=True
     )
-    time.sleep(5.0)
-    assert process.poll() is None, process.communicate()[1]
+    until_ready(process)
     process.send_signal(signal.SIGTERM)
     _, said = process.communicate(timeout=10.0)
     assert process.returncode == 0, said

@@ -13,7 +13,6 @@ from wrist_control.nodes.processes import config_file
 from wrist_control.wrists import WRISTS
 
 EXECUTABLES = Path(get_package_prefix('wrist_control')) / 'lib' / 'wrist_control'
-UP = 4.0  # s: longer than a node needs to start on a busy machine
 
 
 def start(environment, executable, *arguments):
@@ -41,11 +40,15 @@ def test_every_executable_of_the_contract_is_installed():
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize('clock', ['false', 'true'])
-@pytest.mark.parametrize('executable', ['operator', 'three_gimbal_resolver', 'joint_simulator'])
-def test_a_signal_ends_a_node_with_exit_code_0(process_environment, executable, clock, number):
+@pytest.mark.parametrize(
+    'executable',
+    ['operator', 'three_gimbal_resolver', 'joint_simulator', 'stewart_forward_kinematics'],
+)
+def test_a_signal_ends_a_node_with_exit_code_0(
+    process_environment, until_ready, executable, clock, number
+):
     process = start(process_environment, executable, '-p', f'use_sim_time:={clock}')
-    time.sleep(UP)
-    assert process.poll() is None, process.communicate()[1]
+    until_ready(process)
     said = stop(process, number)
     assert process.returncode == 0, said
     assert 'Traceback' not in said
@@ -60,15 +63,16 @@ def test_a_bad_parameter_ends_a_node_with_one_sentence(process_environment):
 
 
 @pytest.mark.parametrize('wrist', WRISTS)
-def test_every_wrist_has_a_ready_parameter_file_that_its_nodes_accept(process_environment, wrist):
+def test_every_wrist_has_a_ready_parameter_file_that_its_nodes_accept(
+    process_environment, until_ready, wrist
+):
     file = str(config_file(f'{wrist}.yaml'))
     nodes = [
         start(process_environment, executable, '--params-file', file)
         for executable in (f'{wrist}_resolver', 'joint_simulator')
     ]
-    time.sleep(UP)
     for node in nodes:
-        assert node.poll() is None, node.communicate()[1]
+        until_ready(node)
         said = stop(node, signal.SIGTERM)
         assert node.returncode == 0, said
         assert 'Traceback' not in said

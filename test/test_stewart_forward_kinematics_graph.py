@@ -1,14 +1,10 @@
 """Leg lengths in, proved poses out; and what must never become a pose."""
 
 import math
-import signal
-import subprocess
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from ament_index_python.packages import get_package_prefix
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
@@ -16,7 +12,6 @@ from sensor_msgs.msg import JointState
 
 from wrist_control import WristError, make_wrist
 from wrist_control.nodes import stewart_forward_kinematics
-from wrist_control.nodes.processes import config_file
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_control.rotations import IDENTITY, Pose, rates_between, turned
 from wrist_interfaces.msg import ForwardKinematicsStatus
@@ -374,26 +369,3 @@ def test_every_parameter_says_what_it_is_and_is_in_the_interfaces_document(graph
 def test_it_refuses_to_start_with_a_bad_value(graph, parameters, sentence):
     with pytest.raises(WristError, match=sentence):
         graph.start(StewartForwardKinematics, **parameters)
-
-
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-@pytest.mark.parametrize('clock', ['false', 'true'])
-def test_a_signal_ends_it_with_exit_code_0(process_environment, clock, number):
-    folder = Path(get_package_prefix('wrist_control')) / 'lib' / 'wrist_control'
-    process = subprocess.Popen(
-        [
-            str(folder / 'stewart_forward_kinematics'),
-            *('--ros-args', '--params-file', str(config_file('stewart.yaml'))),
-            *('-p', f'use_sim_time:={clock}'),
-        ],
-        env=process_environment,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    time.sleep(4.0)
-    assert process.poll() is None, process.communicate()[1]
-    process.send_signal(number)
-    _, said = process.communicate(timeout=10.0)
-    assert process.returncode == 0, said
-    assert 'Traceback' not in said

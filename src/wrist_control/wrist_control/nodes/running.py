@@ -31,28 +31,32 @@ def run(make_node: Callable[[], Node]) -> int:
     """
     rclpy.init(args=sys.argv)
     try:
-        node = make_node()
+        _spin(make_node())
     except WristError as error:
         print(f'Cannot start: {error}', file=sys.stderr)
-        rclpy.try_shutdown()
         return 2
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    except RCLError:
+        if rclpy.ok():  # otherwise the end came in the middle of something
+            raise
+    finally:
+        rclpy.try_shutdown()
+    return 0
+
+
+def _spin(node: Node) -> None:
     executor = make_executor(node)
     executor.add_node(node)
     gc.collect()
     gc.freeze()  # what lives now lives to the end: it need not be looked at again
     try:
+        node.get_logger().info('Ready; Ctrl-C ends it.')
         while rclpy.ok():
             executor.spin_until_future_complete(Future(), timeout_sec=LONGEST_WAIT)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
-    except RCLError:
-        if rclpy.ok():  # otherwise the end came while the executor prepared to wait
-            raise
     finally:
         executor.remove_node(node)
         node.destroy_node()
-        rclpy.try_shutdown()
-    return 0
 
 
 def make_executor(node: Node) -> Executor:
