@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -29,13 +30,15 @@ def run(make_node: Callable[[], Node]) -> int:
     Returns:
         The exit code: 0 after an ordinary stop, 2 when the node refuses its parameters.
     """
+    # rclpy's own handlers end the node; an exception at any moment would only get in their way.
+    signal.signal(signal.SIGINT, lambda *_: None)
     rclpy.init(args=sys.argv)
     try:
         _spin(make_node())
     except WristError as error:
         print(f'Cannot start: {error}', file=sys.stderr)
         return 2
-    except (KeyboardInterrupt, ExternalShutdownException):
+    except ExternalShutdownException:
         pass
     except RCLError:
         if rclpy.ok():  # otherwise the end came in the middle of something
@@ -56,6 +59,7 @@ def _spin(node: Node) -> None:
             executor.spin_until_future_complete(Future(), timeout_sec=LONGEST_WAIT)
     finally:
         executor.remove_node(node)
+        executor.shutdown()
         node.destroy_node()
 
 
