@@ -7,7 +7,7 @@ import pytest
 from geometry_msgs.msg import TwistStamped
 from sensor_msgs.msg import JointState
 
-from wrist_control import fly, make_maneuver, make_wrist
+from wrist_control import WRISTS, fly, make_maneuver, make_wrist
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.recording import recorded_flight
@@ -18,7 +18,7 @@ RATE = 32.0
 TICKS = {math.inf: 190, math.radians(32.0): 280, math.radians(16.0): 550}
 
 
-def fly_through(graph, limit, maneuver='basic_test', wrist='three_gimbal'):
+def fly_through(graph, limit, maneuver='basic_test', wrist='three_gimbal', ticks=None):
     clock = graph.lockstep(1.0 / RATE)
     common = {'use_sim_time': True, 'rate': RATE}
     names = [joint.name for joint in make_wrist(wrist).joints]
@@ -31,7 +31,7 @@ def fly_through(graph, limit, maneuver='basic_test', wrist='three_gimbal'):
     graph.start(Operator, **common, maneuver=maneuver, listeners=2.0)
     clock.listen({'cmd_vel': TwistStamped})
     clock.begin()
-    for _ in range(TICKS[limit]):
+    for _ in range(ticks or TICKS[limit]):
         clock.tick()
     limited = make_wrist(wrist).with_limits(rates=limit)
     return recorded_flight(limited, make_maneuver(maneuver), 1.0 / RATE, clock.heard)
@@ -58,3 +58,15 @@ def test_half_the_limit_costs_the_same_as_in_the_library_within_two_steps(graph)
     flown = fly_through(graph, limit)
     alone = fly('three_gimbal', 'basic_test', RATE, joint_rate_limits=limit)
     assert flown.time_lost[-1] == pytest.approx(alone.time_lost[-1], abs=2.0 / RATE)
+
+
+@pytest.mark.parametrize('wrist', WRISTS)
+def test_the_graph_of_every_wrist_flies_what_the_library_flies(graph, wrist):
+    limit = math.radians(28.0)  # a little less than is asked for
+    flown = fly_through(graph, limit, 'pitch_then_roll', wrist, ticks=80)
+    alone = fly(wrist, 'pitch_then_roll', RATE, joint_rate_limits=limit)
+    rows = 70  # the graph was stopped on its way
+    for name in ('joint_positions', 'joint_rates', 'scale_factor', 'time_lost', 'hand_rotation'):
+        np.testing.assert_allclose(
+            getattr(flown, name)[:rows], getattr(alone, name)[:rows], atol=1e-9, err_msg=name
+        )

@@ -19,6 +19,7 @@ from wrist_control.errors import WristError
 
 # The events executor of this release spins at full load when it waits without a limit.
 LONGEST_WAIT = 3600.0
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 def run(make_node: Callable[[], Node]) -> int:
@@ -30,6 +31,8 @@ def run(make_node: Callable[[], Node]) -> int:
     Returns:
         The exit code: 0 after an ordinary stop, 2 when the node refuses its parameters.
     """
+    # While things are half made a signal would pull ROS away from under them: it has to wait.
+    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
     # rclpy's own handlers end the node; an exception at any moment would only get in their way.
     signal.signal(signal.SIGINT, lambda *_: None)
     rclpy.init(args=sys.argv)
@@ -49,12 +52,16 @@ def run(make_node: Callable[[], Node]) -> int:
 
 
 def _spin(node: Node) -> None:
+    def ready() -> None:
+        node.get_logger().info('Ready; Ctrl-C ends it.')
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
+
     executor = make_executor(node)
     executor.add_node(node)
+    executor.create_task(ready)
     gc.collect()
     gc.freeze()  # what lives now lives to the end: it need not be looked at again
     try:
-        node.get_logger().info('Ready; Ctrl-C ends it.')
         while rclpy.ok():
             executor.spin_until_future_complete(Future(), timeout_sec=LONGEST_WAIT)
     finally:
