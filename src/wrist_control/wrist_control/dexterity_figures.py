@@ -24,8 +24,6 @@ DPI = 90
 COLOURS = colormaps['viridis'].resampled(16)
 AXES = 'xyz'
 RATES = 'pqr'
-# A wrist and the azimuth α of its tilt, rad.
-Place = tuple[Carpal, float]
 # Figure 4.4 goes this far, rad: its wrist reaches 107°.
 EDGE_OF_VIEW = math.radians(110.0)
 # R_b of figures 4.3 to 4.5, and of Table 4.2.

@@ -19,7 +19,7 @@ from wrist_control.nodes.running import run
 from wrist_control.resolving.commands import RefusedError
 from wrist_control.resolving.newest import Newest
 from wrist_control.simulation import follow
-from wrist_control.wrists import Joint
+from wrist_control.wrists.wrist import Joint, one_for_each
 
 EACH = 'one for each joint, or one for all'
 SPECS = [
@@ -91,13 +91,7 @@ class JointSimulator(Node):
         self._joints, self._positions = joints, list(positions)
 
     def _spread(self, parameter: str, names: list[str]) -> list[float]:
-        values: list[float] = self._values[parameter]
-        if len(values) not in (1, len(names)):
-            raise InvalidValueError(
-                f'{parameter} has {len(values)} values; give 1 for all joints or one for each of '
-                f'{", ".join(names)}.'
-            )
-        return values * len(names) if len(values) == 1 else values
+        return one_for_each(parameter, self._values[parameter], names)
 
     def _on_command(self, message: JointState) -> None:
         try:

@@ -215,17 +215,30 @@ class Wrist:
     ) -> list[float]:
         if given is None:
             return otherwise
-        values = [float(v) for v in np.atleast_1d(np.asarray(given, dtype=float))]
-        if len(values) == 1:
-            values *= len(self.joints)
-        if len(values) != len(self.joints):
-            raise InvalidValueError(
-                f'{name} has {len(values)} values; give 1 for all joints or one for each of '
-                f'{", ".join(joint.name for joint in self.joints)}.'
-            )
+        values = one_for_each(
+            name,
+            [float(v) for v in np.atleast_1d(np.asarray(given, dtype=float))],
+            [joint.name for joint in self.joints],
+        )
         if any(math.isnan(v) for v in values):
             raise InvalidValueError(f'{name} is {values}; every value must be a number.')
         return values
+
+
+def one_for_each(name: str, values: Sequence[float], joints: Sequence[str]) -> list[float]:
+    """Return one value for each joint, where one for each or one for all is given.
+
+    Raises:
+        InvalidValueError: Another number of values.
+    """
+    if len(values) == 1:
+        return [*values] * len(joints)
+    if len(values) != len(joints):
+        raise InvalidValueError(
+            f'{name} has {len(values)} values; give 1 for all joints or one for each of '
+            f'{", ".join(joints)}.'
+        )
+    return [*values]
 
 
 def _check_dimension(name: str, value: object, facts: Any) -> None:
