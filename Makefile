@@ -39,11 +39,11 @@ bench: setup  ## measure how fast it is, as ratios within one run
 
 .PHONY: compare
 compare: setup  ## fly every wrist through the same maneuvers and compare them
-	@./env python3 -m wrist_control.compare
+	@./env python3 -m wrist_control.studies.compare
 
 .PHONY: dexterity
 dexterity: setup  ## map where each wrist can turn the hand well
-	@./env python3 -m wrist_control.dexterity_study
+	@./env python3 -m wrist_control.studies.dexterity_maps
 
 .PHONY: clean
 clean:  ## remove everything that setup made; figures in out/ stay

@@ -26,8 +26,8 @@ from scipy.spatial.transform import Rotation
 
 from wrist_control.rotations import Pose, quaternion_of, turned, xyzw
 from wrist_control.stewart.forward_kinematics import Status
-from wrist_control.stewart.paper_angles import angles_of, partial_derivatives, pose_of
 from wrist_control.stewart.stages import unknowns
+from wrist_control.studies.nguyen_angles import angles_of, partial_derivatives, pose_of
 
 # Half-widths of the boxes around home: m, and rad of the rotation vector's components.
 BOXES = {

@@ -14,7 +14,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from wrist_control.nodes.lockstep import Lockstep
+from wrist_control.graph.lockstep import Lockstep
 
 DOMAINS_PER_WORKER = 45
 _count = itertools.count()

@@ -8,9 +8,9 @@ from geometry_msgs.msg import TwistStamped
 from sensor_msgs.msg import JointState
 
 from wrist_control import WRISTS, fly, make_maneuver, make_wrist
+from wrist_control.graph.recording import recorded_flight
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
-from wrist_control.nodes.recording import recorded_flight
 from wrist_control.nodes.resolver import Resolver
 from wrist_interfaces.msg import WristStatus
 

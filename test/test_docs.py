@@ -96,7 +96,7 @@ def test_every_topic_of_a_resolver_is_in_the_interfaces_document(graph):
 
 
 def test_every_erratum_is_proved_by_a_test_that_exists():
-    tests = ''.join(path.read_text() for path in ROOT.glob('src/wrist_control/test/test_*.py'))
+    tests = ''.join(path.read_text() for path in ROOT.glob('src/wrist_control/test/**/test_*.py'))
     errata = (ROOT / 'docs' / 'errata.md').read_text()
     named = re.findall(r'`(test_\w+)`', errata)
     assert len(named) > 50

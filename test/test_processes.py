@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from ament_index_python.packages import get_package_prefix
 
-from wrist_control.nodes.processes import config_file
+from wrist_control.graph.processes import config_file
 from wrist_control.wrists import WRISTS
 
 EXECUTABLES = Path(get_package_prefix('wrist_control')) / 'lib' / 'wrist_control'

@@ -11,8 +11,8 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
 from wrist_control import WristError, make_wrist
+from wrist_control.graph.processes import config_file
 from wrist_control.nodes.joint_simulator import JointSimulator
-from wrist_control.nodes.processes import config_file
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_control.rotations import IDENTITY, Pose, turned

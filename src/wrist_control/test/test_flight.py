@@ -8,7 +8,7 @@ import pytest
 
 from wrist_control import WRISTS, InvalidValueError, fly, make_maneuver, make_wrist
 from wrist_control.flight import PROBE
-from wrist_control.maneuvers import BARKER_SPEED, Maneuver, Segment, stick, turn
+from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, Segment, stick, turn
 from wrist_control.resolving import start, step
 
 H = 1.0 / 32.0

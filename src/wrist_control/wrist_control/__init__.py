@@ -2,7 +2,7 @@
 
 from wrist_control.errors import InvalidValueError, UnreachableError, WristError
 from wrist_control.flight import Flight, fly
-from wrist_control.maneuvers import make_maneuver
+from wrist_control.operating.maneuvers import make_maneuver
 from wrist_control.wrists import WRISTS, make_wrist
 
 __all__ = [

@@ -26,12 +26,12 @@ from sensor_msgs.msg import JointState
 
 from wrist_control import Flight, fly, make_maneuver, make_wrist
 from wrist_control.errors import WristError
-from wrist_control.figures import draw_flight, draw_tip, save
-from wrist_control.maneuvers import BARKER_SPEED
-from wrist_control.nodes.lockstep import Lockstep
-from wrist_control.nodes.processes import NodeProcesses, config_file
-from wrist_control.nodes.recording import in_step, recorded_flight
-from wrist_control.reproduction import Row, three_gimbal_table
+from wrist_control.graph.lockstep import Lockstep
+from wrist_control.graph.processes import NodeProcesses, config_file
+from wrist_control.graph.recording import in_step, recorded_flight
+from wrist_control.operating.maneuvers import BARKER_SPEED
+from wrist_control.studies.barker import Row, three_gimbal_table
+from wrist_control.studies.flight_figures import draw_flight, draw_tip, save
 from wrist_interfaces.msg import WristStatus
 
 RATE = 32.0

@@ -11,3 +11,15 @@ class InvalidValueError(WristError, ValueError):
 
 class UnreachableError(WristError, ValueError):
     """A pose, or a set of joint positions, that the mechanism cannot take."""
+
+
+class RefusedError(WristError, ValueError):
+    """A message that does not count; nothing has changed.
+
+    Attributes:
+        reason: What was wrong in a word or two, the same for every message of that kind.
+    """
+
+    def __init__(self, reason: str, sentence: str) -> None:
+        super().__init__(sentence)
+        self.reason = reason

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.maneuvers import STILL, Maneuver, make_maneuver
+from wrist_control.operating.maneuvers import STILL, Maneuver, make_maneuver
 from wrist_control.resolving import State, Step, resting, start, step
 from wrist_control.rotations import Vector, to_forearm
 from wrist_control.wrists import Wrist, make_wrist

@@ -1,1 +1,1 @@
-"""The ROS 2 nodes: they convert, call and publish; the mathematics is elsewhere."""
+"""What people run, one file a node: they convert, call and publish; no mathematics."""

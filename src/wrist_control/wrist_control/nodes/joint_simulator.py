@@ -10,15 +10,14 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
-from wrist_control.errors import InvalidValueError
-from wrist_control.nodes import convert
-from wrist_control.nodes.diagnostics import OK, Diagnostics
-from wrist_control.nodes.parameters import Spec, declare
-from wrist_control.nodes.qos import EVERY, OUTPUT
-from wrist_control.nodes.running import run
-from wrist_control.resolving.commands import RefusedError
+from wrist_control.errors import InvalidValueError, RefusedError
 from wrist_control.resolving.newest import Newest
-from wrist_control.simulation import follow
+from wrist_control.resolving.simulated_joint import follow
+from wrist_control.ros import convert
+from wrist_control.ros.diagnostics import OK, Diagnostics
+from wrist_control.ros.parameters import Spec, declare
+from wrist_control.ros.qos import EVERY, OUTPUT
+from wrist_control.ros.running import run
 from wrist_control.wrists.wrist import Joint, one_for_each
 
 EACH = 'one for each joint, or one for all'

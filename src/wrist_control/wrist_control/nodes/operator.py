@@ -12,16 +12,15 @@ from rclpy.node import Node
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Header
 
-from wrist_control.errors import InvalidValueError
-from wrist_control.joystick import Held, Joystick
-from wrist_control.maneuvers import BARKER_SPEED, MANEUVERS, STILL, Pilot, make_maneuver
-from wrist_control.nodes import convert
-from wrist_control.nodes.diagnostics import OK, Diagnostics
-from wrist_control.nodes.parameters import Spec, declare, watch
-from wrist_control.nodes.qos import NEWEST, OUTPUT
-from wrist_control.nodes.running import run
-from wrist_control.resolving.commands import RefusedError
+from wrist_control.errors import InvalidValueError, RefusedError
+from wrist_control.operating.joystick import Held, Joystick
+from wrist_control.operating.maneuvers import BARKER_SPEED, MANEUVERS, STILL, Pilot, make_maneuver
 from wrist_control.resolving.newest import Newest
+from wrist_control.ros import convert
+from wrist_control.ros.diagnostics import OK, Diagnostics
+from wrist_control.ros.parameters import Spec, declare, watch
+from wrist_control.ros.qos import NEWEST, OUTPUT
+from wrist_control.ros.running import run
 from wrist_interfaces.msg import WristStatus
 
 SPECS = [

@@ -13,18 +13,18 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
-from wrist_control.errors import WristError
-from wrist_control.nodes import convert
-from wrist_control.nodes.diagnostics import ERROR, OK, WARN, Diagnostics
-from wrist_control.nodes.parameters import declare, watch
-from wrist_control.nodes.qos import NEWEST
+from wrist_control.errors import RefusedError, WristError
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
-from wrist_control.nodes.running import run
-from wrist_control.nodes.wrong_types import WrongTypes
-from wrist_control.resolving.commands import RefusedError, accept
+from wrist_control.resolving.commands import accept
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.supervisor import Outcome, Supervisor
+from wrist_control.ros import convert
+from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
+from wrist_control.ros.parameters import declare, watch
+from wrist_control.ros.qos import NEWEST
+from wrist_control.ros.running import run
+from wrist_control.ros.wrong_types import WrongTypes
 from wrist_control.wrists import WRISTS
 
 LEVELS = {

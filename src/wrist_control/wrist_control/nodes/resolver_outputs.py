@@ -13,10 +13,10 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 from visualization_msgs.msg import MarkerArray
 
-from wrist_control.nodes import convert
-from wrist_control.nodes.markers import wrist_markers
-from wrist_control.nodes.qos import OUTPUT
 from wrist_control.resolving.supervisor import Outcome
+from wrist_control.ros import convert
+from wrist_control.ros.markers import wrist_markers
+from wrist_control.ros.qos import OUTPUT
 from wrist_control.wrists import Wrist
 from wrist_interfaces.msg import LimitAtWork, WristStatus
 

@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from wrist_control.nodes.parameters import Spec
 from wrist_control.resolving.supervisor import Settings
+from wrist_control.ros.parameters import Spec
 from wrist_control.wrists import Wrist, wrist_class
 
 # What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.

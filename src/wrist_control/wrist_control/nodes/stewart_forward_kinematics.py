@@ -13,15 +13,20 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
-from wrist_control.nodes import convert
-from wrist_control.nodes.diagnostics import OK, WARN, Diagnostics
-from wrist_control.nodes.parameters import Spec, declare
-from wrist_control.nodes.qos import NEWEST, OUTPUT
+from wrist_control.errors import RefusedError
 from wrist_control.nodes.resolver_settings import mechanism, mechanism_specs
-from wrist_control.nodes.running import run
-from wrist_control.nodes.wrong_types import WrongTypes
-from wrist_control.resolving.commands import RefusedError
-from wrist_control.stewart.observer import Observed, Observer, Settings, in_metres_and_radians
+from wrist_control.resolving.platform_observer import (
+    Observed,
+    Observer,
+    Settings,
+    in_metres_and_radians,
+)
+from wrist_control.ros import convert
+from wrist_control.ros.diagnostics import OK, WARN, Diagnostics
+from wrist_control.ros.parameters import Spec, declare
+from wrist_control.ros.qos import NEWEST, OUTPUT
+from wrist_control.ros.running import run
+from wrist_control.ros.wrong_types import WrongTypes
 from wrist_control.wrists.stewart import Stewart
 from wrist_interfaces.msg import ForwardKinematicsStatus
 

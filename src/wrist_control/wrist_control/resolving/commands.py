@@ -6,23 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from wrist_control.errors import WristError
+from wrist_control.errors import RefusedError
 from wrist_control.rotations import Quaternion, to_hand
 
 # Clocks of two machines may differ by this much, s; a stamp further ahead is refused.
 CLOCK_SKEW = 0.05
-
-
-class RefusedError(WristError, ValueError):
-    """A message that does not count; nothing has changed.
-
-    Attributes:
-        reason: What was wrong in a word or two, the same for every message of that kind.
-    """
-
-    def __init__(self, reason: str, sentence: str) -> None:
-        super().__init__(sentence)
-        self.reason = reason
 
 
 class Command(NamedTuple):

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from enum import Enum
 from typing import NamedTuple
 
-from wrist_control.errors import InvalidValueError, WristError
-from wrist_control.resolving.commands import Command, RefusedError, freshness, hand_twist
+from wrist_control.errors import InvalidValueError, RefusedError, WristError
+from wrist_control.resolving.commands import Command, freshness, hand_twist
 from wrist_control.resolving.homing import arrived, step_towards
 from wrist_control.resolving.newest import Newest
 from wrist_control.resolving.report import WristState, sentence, state_of

@@ -1,0 +1,137 @@
+"""The comparison of all wrists: what it measures, and what it shows."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from wrist_control import WRISTS, fly, make_wrist
+from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, Segment, make_maneuver, turn
+from wrist_control.studies.compare import HEADINGS, main, markdown, rows, table
+from wrist_control.studies.comparison import (
+    JOINT_SPEEDS,
+    about_approach,
+    approach_axis,
+    compare,
+    first_stop,
+    followed,
+    path_error,
+)
+
+LIMIT = JOINT_SPEEDS['revolute']
+SHORT = Maneuver('short', (turn(1, 0.2, BARKER_SPEED), turn(2, 0.1, BARKER_SPEED)))
+
+
+@pytest.mark.parametrize('name', WRISTS)
+def test_every_wrist_can_be_compared(name):
+    (outcome,) = compare([name], [SHORT])
+    assert outcome.completed
+    assert 0.0 < outcome.peak_rate <= 1.0 + 1e-9
+    assert outcome.free_peak_rate >= outcome.peak_rate * (1.0 - 1e-9)
+    assert outcome.path_error < 1e-6
+    assert outcome.stopped_by == ''
+
+
+def test_the_comparison_is_the_same_each_time():
+    pairs = []
+
+    def listed(flights):
+        pairs.extend(flights)
+        return flights
+
+    outcomes = compare(['three_gimbal', 'carpal'], [SHORT, make_maneuver('basic_test')], listed)
+    assert [(o.wrist, o.maneuver) for o in outcomes] == [(w, m.name) for w, m in pairs]
+    assert len(outcomes) == 4
+    again = compare(['three_gimbal', 'carpal'], [SHORT])
+    assert rows(again) == rows(outcomes[:2])
+
+
+def test_a_pointer_is_asked_what_it_can_follow():
+    assert followed(make_wrist('three_gimbal')) == (True, True, True)
+    assert followed(make_wrist('stewart')) == (True, True, True)
+    assert followed(make_wrist('carpal')) == (True, True, False)
+
+
+def test_the_approach_axis_leads_away_from_the_wrist():
+    axes = {name: approach_axis(make_wrist(name)) for name in WRISTS}
+    assert axes['three_gimbal'] == axes['roll_pitch_roll'] == axes['double_hooke'] == 0
+    assert axes['carpal'] == axes['five_bar'] == axes['stewart'] == 2
+
+
+def test_a_maneuver_is_turned_with_the_approach_axis_and_stays_right_handed():
+    maneuver = Maneuver('m', (Segment((1.0, 2.0, 3.0), 0.5),), waits=False)
+    turned = about_approach(maneuver, 2)
+    assert turned.segments == (Segment((2.0, 3.0, 1.0), 0.5),)
+    assert (turned.name, turned.waits) == ('m', False)
+    assert about_approach(maneuver, 0) == maneuver
+    axes = np.array(
+        [
+            about_approach(Maneuver('', (Segment(tuple(e), 1.0),)), 2).segments[0].rates
+            for e in np.eye(3)
+        ]
+    )
+    assert np.linalg.det(axes) == pytest.approx(1.0)
+
+
+def test_time_lost_is_no_path_error():
+    slow = fly('four_gimbal', 'basic_test', joint_rate_limits=math.radians(20.0))
+    assert slow.time_lost[-1] > 1.0
+    assert path_error(slow) < 1e-9
+
+
+def test_path_error_sees_a_hand_that_leaves_its_path_and_returns():
+    flight = fly('double_hooke', SHORT)
+    aside = flight.hand_rotation.copy()
+    s, c = math.sin(0.03), math.cos(0.03)
+    aside[5] = np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]]) @ aside[5]
+    assert path_error(flight) < 1e-9
+    assert path_error(dataclasses.replace(flight, hand_rotation=aside)) == pytest.approx(0.03)
+
+
+def test_path_error_of_a_pointer_does_not_ask_for_its_roll():
+    roll = Maneuver('roll', (turn(0, 0.3, 0.5), Segment((0.1, 0.2, 0.5), 1.0)))
+    flight = fly('pitch_yaw', roll, 100.0)
+    assert path_error(flight) < 1e-4
+    aside = flight.hand_rotation.copy()
+    s, c = math.sin(0.03), math.cos(0.03)
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+    aside[5] = about_x @ aside[5]
+    wrong = path_error(dataclasses.replace(flight, hand_rotation=aside))
+    assert wrong == pytest.approx(0.03, rel=1e-3)
+
+
+def test_the_first_limit_of_the_mechanism_itself_is_named_with_its_time():
+    cone = fly('single_hooke', 'basic_test', joint_rate_limits=LIMIT, patience=0.5)
+    assert first_stop(cone) == ('cone', pytest.approx(45.0 / 32.0, abs=1.0 / 32.0))
+    lock = fly('three_gimbal', 'basic_test', joint_rate_limits=LIMIT)
+    assert first_stop(lock) == ('lock', pytest.approx(90.0 / 32.0, abs=1.0 / 32.0))
+    name, when = first_stop(fly('double_hooke', 'basic_test', joint_rate_limits=LIMIT))
+    assert name == ''
+    assert math.isnan(when)
+
+
+def test_lock_costs_the_three_gimbal_wrist_what_the_paper_says_and_the_double_hooke_nothing():
+    three, four, double = compare(
+        ['three_gimbal', 'four_gimbal', 'double_hooke'], [make_maneuver('basic_test')]
+    )
+    assert three.time_lost == pytest.approx(2.8, abs=0.05)
+    assert four.free_peak_rate == pytest.approx(1.787, abs=1e-3)
+    assert double.time_lost == 0.0
+    assert double.free_peak_rate == pytest.approx(1.0)
+
+
+def test_table_and_markdown_show_every_outcome():
+    outcomes = compare(['three_gimbal', 'carpal'], [SHORT])
+    assert table(outcomes).row_count == 2
+    lines = markdown(outcomes).splitlines()
+    assert lines[0] == '| ' + ' | '.join(HEADINGS) + ' |'
+    assert '| short | carpal * |' in lines[3]
+
+
+def test_an_unfinished_maneuver_shows_what_stopped_it(tmp_path):
+    main(tmp_path, ['single_hooke', 'double_hooke'], [make_maneuver('basic_test')])
+    assert (tmp_path / 'compare.png').stat().st_size > 20_000
+    single, double = (tmp_path / 'compare.md').read_text(encoding='utf-8').splitlines()[2:4]
+    assert 'cone at 1.4 s | no' in single
+    assert '| 0.00 |' in double

@@ -1,0 +1,1 @@
+"""What carries messages: conversion, parameters, quality of service, diagnostics, running."""

@@ -1,0 +1,68 @@
+"""Once a second on /diagnostics: how the node is, what it refused, and how punctual it is."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.node import Node
+
+from wrist_control.errors import RefusedError
+from wrist_control.ros.qos import OUTPUT
+
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+Health = tuple[bytes, str, dict[str, str]]
+
+
+class Diagnostics:
+    """Counts what a node refuses and publishes how it is.
+
+    Attributes:
+        refused: How many messages were refused so far, by topic and reason.
+    """
+
+    def __init__(self, node: Node, health: Callable[[], Health]) -> None:
+        """Publish for a node.
+
+        Args:
+            node: The node.
+            health: Asked once a second for a level, a sentence and the values to show.
+        """
+        self.refused: Counter[str] = Counter()
+        self._node = node
+        self._health = health
+        self._seen = 0
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', OUTPUT)
+        node.create_timer(1.0, self._publish)
+
+    def refuse(self, topic: str, error: RefusedError) -> None:
+        """Count a refused message, and say why at most once a second."""
+        self.refused[f'{topic}: {error.reason}'] += 1
+        self._node.get_logger().warning(str(error), throttle_duration_sec=1.0)
+
+    def _publish(self) -> None:
+        level, message, values = self._health()
+        total = sum(self.refused.values())
+        input_level = WARN if total > self._seen else OK
+        self._seen = total
+        counts = {f'refused {reason}': str(count) for reason, count in self.refused.items()}
+        array = DiagnosticArray(
+            status=[
+                self._status('state', level, message, values),
+                self._status('input', input_level, f'{total} messages refused so far', counts),
+            ]
+        )
+        array.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(array)
+
+    def _status(
+        self, part: str, level: bytes, message: str, values: dict[str, str]
+    ) -> DiagnosticStatus:
+        return DiagnosticStatus(
+            level=level,
+            name=f'{self._node.get_fully_qualified_name().lstrip("/")}: {part}',
+            message=message,
+            hardware_id='wrist_control',
+            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+        )
