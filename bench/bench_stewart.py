@@ -60,7 +60,7 @@ class Problem:
             for a in along
         ]
         self.before = self.poses[-1:] + self.poses[:-1]
-        self.lengths = [tuple(WRIST.held(pose)) for pose in self.poses]
+        self.lengths = [tuple(WRIST.assembly_at(pose)) for pose in self.poses]
         self.rotvec = [self._vector(pose) for pose in self.before]
 
     @staticmethod

@@ -94,7 +94,7 @@ def by_the_paper(lengths: tuple[float, ...], near: Pose) -> Pose | None:
     a = np.array([*near.position, *angles_of(near)])
     for _ in range(50):
         pose = pose_of(tuple(a[:3]), tuple(a[3:]))
-        f = np.array(WRIST.held(pose)) ** 2 - np.array(lengths) ** 2
+        f = np.array(WRIST.assembly_at(pose)) ** 2 - np.array(lengths) ** 2
         if np.abs(f).sum() < 1e-12:
             return pose
         try:
@@ -127,7 +127,7 @@ def box_poses(n: int, shift: float, turn: float, seed: int) -> Iterator[Pose]:
             turned(home.quaternion, tuple(rng.uniform(-turn, turn, 3).tolist()), 1.0),
             tuple((np.array(home.position) + rng.uniform(-shift, shift, 3)).tolist()),
         )
-        if WRIST.held(pose).hold * WRIST.home.hold > 0.0:
+        if WRIST.assembly_at(pose).hadamard_ratio * WRIST.home.hadamard_ratio > 0.0:
             made += 1
             yield pose
 
@@ -135,7 +135,7 @@ def box_poses(n: int, shift: float, turn: float, seed: int) -> Iterator[Pose]:
 def score(method: Method, poses: Sequence[Pose], starts: Sequence[Pose]) -> Score:
     right = wrong = 0
     for pose, start in zip(poses, starts, strict=True):
-        answer = method(tuple(WRIST.held(pose)), start)
+        answer = method(tuple(WRIST.assembly_at(pose)), start)
         if answer is not None:
             near = apart(answer, pose) < CLOSE
             right, wrong = right + near, wrong + (not near)
@@ -160,7 +160,7 @@ def tracked(method: Method, poses: Sequence[Pose]) -> Score:
     right = wrong = 0
     before = poses[0]
     for pose in poses[1:]:
-        answer = method(tuple(WRIST.held(pose)), before)
+        answer = method(tuple(WRIST.assembly_at(pose)), before)
         if answer is not None:
             near = apart(answer, pose) < CLOSE
             right, wrong = right + near, wrong + (not near)

@@ -81,7 +81,7 @@ def apart(one: Frame, other: Frame) -> float:
 
 def used_bound(pose: Pose) -> float:
     """Return the true error as a share of its bound; 0 where nothing is claimed."""
-    lengths = tuple(WRIST.held(pose))
+    lengths = tuple(WRIST.assembly_at(pose))
     solution = FK.solve(lengths, FK.solve(lengths, pose).pose)
     if solution.pose is None or not solution.error_bound < math.inf:
         return 0.0
@@ -94,7 +94,7 @@ def used_bound(pose: Pose) -> float:
 
 def way_misses(pose: Pose) -> float | None:
     """Return how far from the answer small steps from home end, m; None if not CONVERGED."""
-    goal = np.array(WRIST.held(pose), dtype=np.longdouble)
+    goal = np.array(WRIST.assembly_at(pose), dtype=np.longdouble)
     solution = FK.solve(tuple(goal.astype(float)))
     if solution.status != Status.CONVERGED:
         return None
@@ -109,7 +109,7 @@ def way_misses(pose: Pose) -> float | None:
 
 def closest_twin(pose: Pose) -> tuple[int, float]:
     """Return how many pairs of poses fit the lengths, and the least distance per radius."""
-    found = FK.assemblies(tuple(WRIST.held(pose)))
+    found = FK.assemblies(tuple(WRIST.assembly_at(pose)))
     ratios = [
         apart(frame(one.pose), frame(other.pose)) / one.unique_radius
         for one in found

@@ -94,7 +94,7 @@ def test_the_pose_is_that_of_the_lengths_with_its_proof(graph):
     watched = Watched(graph)
     watched.begin()
     pose = Pose(turned(IDENTITY, (0.05, -0.04, 0.06), 1.0), (0.01, -0.01, 0.44))
-    status = watched.status_of(WRIST.held(pose))
+    status = watched.status_of(WRIST.assembly_at(pose))
     assert status.status == ForwardKinematicsStatus.CONVERGED
     assert status.error_bound < 1e-12
     assert status.unique_radius > 0.01
@@ -108,7 +108,7 @@ def test_the_pose_is_that_of_the_lengths_with_its_proof(graph):
 def test_legs_may_come_in_any_order_with_a_prefix_and_among_other_joints(graph):
     watched = Watched(graph, joint_prefix='left_', base_frame='base')
     pose = Pose(turned(IDENTITY, (0.05, -0.04, 0.06), 1.0), (0.01, -0.01, 0.44))
-    joints = list(zip([f'left_{leg}' for leg in LEGS], WRIST.held(pose), strict=True))
+    joints = list(zip([f'left_{leg}' for leg in LEGS], WRIST.assembly_at(pose), strict=True))
     joints = [('elbow', math.nan), *reversed(joints), ('leg_1', 7.0)]
     names, lengths = zip(*joints, strict=True)
     graph.until(lambda: watched.status_of(lengths, names).status == 0)
@@ -144,7 +144,7 @@ def test_the_covariance_is_the_spread_of_poses_from_noisy_lengths(graph):
     noise = [1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4]
     watched = Watched(graph, length_noise=noise)
     pose = Pose(turned(IDENTITY, (0.1, -0.15, 0.2), 1.0), (0.02, -0.01, 0.44))
-    lengths = np.array(WRIST.held(pose))
+    lengths = np.array(WRIST.assembly_at(pose))
     graph.until(lambda: watched.status_of(lengths).status == 0)
     columns = []
     for leg in range(6):
@@ -168,9 +168,9 @@ def test_the_twist_is_the_change_of_the_pose_in_platform_axes(graph):
     watched.begin()
     twist, dt = (0.02, -0.03, 0.01, 0.1, -0.05, 0.08), 1e-4
     pose = Pose(turned(IDENTITY, (0.05, -0.04, 0.06), 1.0), (0.01, -0.01, 0.44))
-    ends = [WRIST.held(WRIST.advance(pose, twist, share * dt)) for share in (-0.5, 0.5)]
+    ends = [WRIST.assembly_at(WRIST.target_pose(pose, twist, share * dt)) for share in (-0.5, 0.5)]
     rates = np.subtract(ends[1], ends[0]) / dt
-    watched.status_of(WRIST.held(pose), velocities=rates)
+    watched.status_of(WRIST.assembly_at(pose), velocities=rates)
     watched.status_of(ends[0])
     before = pose_of(watched.poses[-1])
     watched.status_of(ends[1], after=dt)
@@ -201,7 +201,7 @@ def test_other_platforms_are_described_by_their_anchors(graph):
     wrist = make_wrist('stewart', platform_anchors=raised)
     watched = Watched(graph, platform_anchors=[float(x) for point in raised for x in point])
     pose = Pose(turned(IDENTITY, (0.02, -0.04, 0.03), 1.0), (0.01, -0.01, 0.43))
-    graph.until(lambda: watched.status_of(wrist.held(pose)).status == 0)
+    graph.until(lambda: watched.status_of(wrist.assembly_at(pose)).status == 0)
     assert_same_pose(pose_of(watched.poses[-1]), pose)
 
 
@@ -294,7 +294,7 @@ def test_near_lock_the_status_says_so_and_no_pose_is_published(graph):
     poses, _ = watched.begin()
     for turn in np.radians([10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 87.0, 89.8]):
         pose = Pose(turned(IDENTITY, (0.0, 0.0, float(turn)), 1.0), (0.0, 0.0, 0.4318))
-        status = watched.status_of(WRIST.held(pose))
+        status = watched.status_of(WRIST.assembly_at(pose))
         if status.status != ForwardKinematicsStatus.CONVERGED:
             break
         poses += 1

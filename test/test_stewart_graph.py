@@ -84,7 +84,7 @@ def test_each_component_of_a_command_moves_the_hand_that_way(graph, component):
     np.testing.assert_allclose(values(flown.status.commanded), twist, atol=1e-12)
     np.testing.assert_allclose(values(flown.status.achieved), twist, atol=1e-9)
     moved = (len(flown.clock.heard['hand_pose']) - start) / RATE
-    expected = WRIST.advance(WRIST.home.pose, twist, moved)
+    expected = WRIST.target_pose(WRIST.home.pose, twist, moved)
     assert flown.pose.position == pytest.approx(expected.position, abs=1e-9)
     np.testing.assert_allclose(flown.pose.rotation, expected.rotation, atol=1e-9)
 
@@ -107,7 +107,7 @@ def test_a_command_of_all_six_is_slowed_to_the_leg_rates_and_keeps_its_direction
 
 def test_a_command_in_the_forearm_frame_is_turned_into_hand_axes_all_of_it(graph):
     pose = Pose(turned(IDENTITY, (0.1, -0.2, 0.3), 1.0), (0.0, 0.0, 0.43))
-    flown = Flown(graph, initial_positions=list(WRIST.held(pose)))
+    flown = Flown(graph, initial_positions=list(WRIST.assembly_at(pose)))
     flown.clock.begin()
     flown.command((0.01, 0.0, 0.0, 0.0, 0.0, 0.02), frame='forearm')
     flown.ticks(3)
@@ -275,7 +275,7 @@ def test_reset_brings_the_platform_home_by_no_jump_and_is_measured_all_the_way(g
 
 def test_a_start_elsewhere_is_taken_over_from_the_measured_legs(graph):
     pose = Pose(turned(IDENTITY, (0.06, -0.05, 0.1), 1.0), (0.02, -0.01, 0.44))
-    lengths = list(WRIST.held(pose))
+    lengths = list(WRIST.assembly_at(pose))
     graph.start(JointSimulator, joints=LEGS, initial_positions=lengths)
     states = graph.listen(JointState, 'joint_states')
     graph.until(lambda: states)

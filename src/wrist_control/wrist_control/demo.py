@@ -30,7 +30,7 @@ from wrist_control.graph.lockstep import Lockstep
 from wrist_control.graph.processes import NodeProcesses, config_file
 from wrist_control.graph.recording import in_step, recorded_flight
 from wrist_control.operating.maneuvers import BARKER_SPEED
-from wrist_control.studies.barker import Row, three_gimbal_table
+from wrist_control.studies.barker import Line, three_gimbal_table
 from wrist_control.studies.flight_figures import draw_flight, draw_tip, save
 from wrist_interfaces.msg import WristStatus
 
@@ -147,18 +147,18 @@ def _tick_through(clock: Lockstep, progress: Progress, task: TaskID, speed: floa
     progress.update(task, completed=1.0, saying=f'flown, {status.time_lost:.4f} s lost')
 
 
-def against_library(unscaled: Flight, scaled: Flight) -> list[Row]:
+def against_library(unscaled: Flight, scaled: Flight) -> list[Line]:
     """Return how far the ROS graph is from the same flights of the library alone."""
     rows = []
     for name, flight in (('unscaled', unscaled), ('scaled', scaled)):
         alone = fly(flight.wrist, flight.maneuver, RATE)
         n = min(len(alone.time), len(flight.time))
         gap = np.abs(alone.joint_positions[:n] - flight.joint_positions[:n]).max()
-        rows.append(Row(f'graph from fly(), {name}', 'no graph', f'{gap:.1e} rad apart'))
+        rows.append(Line(f'graph from fly(), {name}', 'no graph', f'{gap:.1e} rad apart'))
     return rows
 
 
-def table(rows: Sequence[Row]) -> Table:
+def table(rows: Sequence[Line]) -> Table:
     """Return the table "paper | measured"."""
     shown = Table(title='Barker (1986), figures 6 to 8, flown through ROS 2')
     for heading in ('figure', 'paper', 'measured'):

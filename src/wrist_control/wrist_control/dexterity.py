@@ -14,7 +14,7 @@ import numpy as np
 
 from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.rotations import Pose
-from wrist_control.wrists.wrist import Memory, Positions, Wrist
+from wrist_control.wrists.wrist import Positions, SteeringState, Wrist
 
 # Table 4.1 in numbers: [Canfield1997], 4.6.1, and a ratio where a joint is ten times too fast.
 LEAST_DETERMINANT = 0.5
@@ -171,20 +171,22 @@ class _Place(NamedTuple):
 
     positions: Positions
     pose: Pose
-    memory: Memory
+    steering_state: SteeringState
 
 
 def _turned_on(wrist: Wrist, place: _Place, twist: Sequence[float], angle: float) -> _Place:
-    near, memory = wrist.steer(place.positions, 1.0, angle, place.memory)
-    pose = wrist.advance(place.pose, twist, angle)
+    near, steering_state = wrist.choose_branch_reference(
+        place.positions, 1.0, angle, place.steering_state
+    )
+    pose = wrist.target_pose(place.pose, twist, angle)
     positions = wrist.inverse(pose, near)
     within = all(
         joint.lower <= position <= joint.upper
         for joint, position in zip(wrist.joints, positions, strict=True)
     )
-    if not within or any(clearance.room < 0.0 for clearance in wrist.clearances(positions)):
+    if not within or any(clearance.remaining < 0.0 for clearance in wrist.clearances(positions)):
         raise UnreachableError('outside the limits')
-    return _Place(positions, pose, memory)
+    return _Place(positions, pose, steering_state)
 
 
 def disc(

@@ -10,7 +10,15 @@ class InvalidValueError(WristError, ValueError):
 
 
 class UnreachableError(WristError, ValueError):
-    """A pose, or a set of joint positions, that the mechanism cannot take."""
+    """A pose, or a set of joint positions, that the mechanism cannot take.
+
+    Attributes:
+        limit: What holds the hand, in a word or two, as the operator knows it: 'cone', 'equator'.
+    """
+
+    def __init__(self, sentence: str, limit: str = 'edge of the workspace') -> None:
+        super().__init__(sentence)
+        self.limit = limit
 
 
 class RefusedError(WristError, ValueError):

@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.operating.maneuvers import STILL, Maneuver, make_maneuver
+from wrist_control.operating.maneuvers import ZERO_RATES, Maneuver, make_maneuver
 from wrist_control.resolving import State, Step, resting, start, step
 from wrist_control.rotations import Vector, to_forearm
+from wrist_control.units import INCH
 from wrist_control.wrists import Wrist, make_wrist
 
 # [Barker1986]: a 6-in. probe along the hand's x axis.
-PROBE = (6.0 * 0.0254, 0.0, 0.0)
+PROBE = (6.0 * INCH, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,7 @@ def fly(
     return _flight(wrist, maneuver, 1.0 / rate, rows, probe, completed)
 
 
-Row = tuple[State, Vector, Step]
+Sample = tuple[State, Vector, Step]
 
 
 def _rows(
@@ -116,8 +117,8 @@ def _rows(
     dt: float,
     patience: float,
     progress: Callable[[float], object] | None,
-) -> tuple[list[Row], bool]:
-    rows: list[Row] = []
+) -> tuple[list[Sample], bool]:
+    rows: list[Sample] = []
     linear = (0.0,) * (wrist.twist_size - 3)
     held_back = 0.0
     while state.time_lost <= patience:
@@ -133,7 +134,7 @@ def _rows(
         state = made.state
         if progress is not None:
             progress(min(1.0, time / maneuver.duration))
-    rows.append((state, STILL, resting(wrist, state)))
+    rows.append((state, ZERO_RATES, resting(wrist, state)))
     return rows, False
 
 
@@ -141,7 +142,7 @@ def _flight(
     wrist: Wrist,
     maneuver: Maneuver,
     dt: float,
-    rows: list[Row],
+    rows: list[Sample],
     probe: Vector,
     completed: bool,
 ) -> Flight:

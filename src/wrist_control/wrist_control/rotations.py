@@ -1,8 +1,12 @@
 """Rotations in Barker's convention: quaternions (a1, a2, a3, a4) and direction cosines C.
 
-C takes the components of a vector from forearm axes to hand axes. Its quaternion has the scalar
-first and then the *z, y, x* parts: a1 = cos(μ/2), (a4, a3, a2) = sin(μ/2) (x, y, z) for a hand
-turned by μ about the unit vector (x, y, z). [Barker1986], fig. 1(c).
+A trap for everyone who knows other libraries: **the quaternion here is (w, z, y, x)**, the scalar
+first and the vector backwards, as the paper prints it. `Pose.xyzw` and `xyzw` give the order of
+ROS and SciPy, and `from_xyzw` takes it.
+
+C takes the components of a vector from forearm axes to hand axes, so it is the transpose of the
+matrix that turns the forearm into the hand. a1 = cos(μ/2), (a4, a3, a2) = sin(μ/2) (x, y, z) for
+a hand turned by μ about the unit vector (x, y, z). [Barker1986], fig. 1(c).
 
 Everything here is plain floats: the mathematics of a resolver step costs less than numpy's
 overhead on three-vectors.
@@ -26,7 +30,7 @@ class Pose(NamedTuple):
     """Where the hand is: its orientation, and its origin in forearm axes.
 
     Attributes:
-        quaternion: Barker's (a1, a2, a3, a4), unit length.
+        quaternion: Barker's (a1, a2, a3, a4) = (w, z, y, x), unit length; see `xyzw`.
         position: Origin of the hand axes in forearm axes, m.
     """
 
@@ -37,6 +41,23 @@ class Pose(NamedTuple):
     def rotation(self) -> np.ndarray:
         """Barker's C, forearm axes to hand axes, shape (3, 3)."""
         return np.array(direction_cosines(self.quaternion))
+
+    @property
+    def xyzw(self) -> Quaternion:
+        """The quaternion in the order of ROS and SciPy: x, y, z, w."""
+        return xyzw(self.quaternion)
+
+
+class Poses(NamedTuple):
+    """Many poses as arrays, one row each.
+
+    Attributes:
+        quaternion: Barker's (a1, a2, a3, a4) = (w, z, y, x), shape (n, 4).
+        position: Origins of the hand axes in forearm axes, m, shape (n, 3).
+    """
+
+    quaternion: np.ndarray
+    position: np.ndarray
 
 
 def direction_cosines(a: Quaternion) -> DirectionCosines:
@@ -149,13 +170,7 @@ def to_forearm(a: Quaternion, vector: Vector) -> Vector:
 
 def to_hand(a: Quaternion, vector: Vector) -> Vector:
     """Return the hand components of a vector given in forearm axes: C v."""
-    (c11, c12, c13), (c21, c22, c23), (c31, c32, c33) = direction_cosines(a)
-    x, y, z = vector
-    return (
-        c11 * x + c12 * y + c13 * z,
-        c21 * x + c22 * y + c23 * z,
-        c31 * x + c32 * y + c33 * z,
-    )
+    return to_forearm(conjugate(a), vector)
 
 
 def about_x(angle: float) -> Quaternion:
@@ -174,7 +189,12 @@ def about_z(angle: float) -> Quaternion:
 
 
 def xyzw(a: Quaternion) -> Quaternion:
-    """Return the components in the order of ROS: x, y, z, w. The one place that knows."""
+    """Return the components in the order of ROS: x, y, z, w."""
+    return (a[3], a[2], a[1], a[0])
+
+
+def from_xyzw(a: Quaternion) -> Quaternion:
+    """Return Barker's quaternion of components in the order of ROS: x, y, z, w."""
     return (a[3], a[2], a[1], a[0])
 
 

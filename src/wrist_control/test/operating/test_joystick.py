@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wrist_control.errors import RefusedError
-from wrist_control.operating.joystick import Held, Joystick
+from wrist_control.operating.joystick import Joystick, JoystickWithTimeout
 
 JOYSTICK = Joystick((0, 1, 3), (-1.0, 0.5, 2.0), 0.1, 2)
 PRESSED = (0, 0, 1)
@@ -42,7 +42,7 @@ def test_a_joystick_that_lacks_an_axis_or_button_is_refused_by_name(axes, button
 
 
 def test_a_silent_joystick_counts_as_released():
-    held = Held(JOYSTICK, 0.5)
+    held = JoystickWithTimeout(JOYSTICK, 0.5)
     assert held.rates(0.0) == (0.0, 0.0, 0.0)
     held.take([0.0, 1.0, 0.0, 0.0], PRESSED, 10.0)
     assert held.rates(10.4)[1] == 0.5
@@ -50,7 +50,7 @@ def test_a_silent_joystick_counts_as_released():
 
 
 def test_what_is_no_number_counts_as_released():
-    held = Held(JOYSTICK, 0.5)
+    held = JoystickWithTimeout(JOYSTICK, 0.5)
     held.take([0.0, 1.0, 0.0, 0.0], PRESSED, 10.0)
     with pytest.raises(RefusedError, match='nan'):
         held.take([0.0, math.nan, 0.0, 0.0], PRESSED, 10.1)

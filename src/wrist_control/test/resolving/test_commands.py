@@ -8,11 +8,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wrist_control import WristError
+from wrist_control.errors import RefusedError
 from wrist_control.resolving.commands import (
     CLOCK_SKEW,
     Command,
-    RefusedError,
-    accept,
+    CommandPolicy,
+    ReceivedTwist,
     freshness,
     hand_twist,
 )
@@ -24,9 +25,11 @@ twists = st.tuples(*(finite,) * 6)
 
 
 def offered(
-    twist=TWIST, frame='', stamp=10.0, now=10.0, received=50.0, hand='hand', forearm='forearm'
+    twist=TWIST, frame='', stamp=10.0, now=10.0, receipt=50.0, hand='hand', forearm='forearm'
 ):
-    return accept(twist, frame, stamp, now, received, 0.25, hand, forearm)
+    policy = CommandPolicy(0.25, hand, forearm)
+    received = ReceivedTwist(twist, frame, stamp)
+    return policy.accept(received, stamp_time=now, receipt_time=receipt)
 
 
 @given(twists, st.sampled_from(['', 'hand', 'forearm']), st.floats(0.0, 0.25))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from wrist_control import make_wrist
 from wrist_control.resolving import start
-from wrist_control.resolving.homing import CALM, arrived, step_towards
+from wrist_control.resolving.homing import CALM, has_reached, step_towards
 
 WRIST = make_wrist('three_gimbal')
 places = st.tuples(st.floats(-3.0, 3.0), st.floats(-1.4, 1.4), st.floats(-3.0, 3.0))
@@ -18,7 +18,7 @@ rate_limits = st.lists(st.one_of(st.floats(0.05, 5.0), st.just(math.inf)), min_s
 
 def way(wrist, state, aim, dt):
     """Yield the states on the way to an aim, until there."""
-    while not arrived(state, aim):
+    while not has_reached(state, aim):
         state = step_towards(wrist, state, aim, dt)
         yield state
 
@@ -52,11 +52,11 @@ def test_the_joints_go_straight_and_arrive_together_in_the_time_of_the_slowest(t
 
 
 def test_the_hand_goes_with_the_joints_and_time_lost_stands_on_the_way():
-    state = start(WRIST, (0.5, 0.5, 0.5))._replace(time_lost=3.0, memory=(1.0,))
+    state = start(WRIST, (0.5, 0.5, 0.5))._replace(time_lost=3.0, steering_state=(1.0,))
     after = step_towards(WRIST, state, (0.0, 0.0, 0.0), 0.1)
     assert after.pose == WRIST.forward(after.positions)
     assert after.time_lost == 3.0
-    assert after.memory == ()
+    assert after.steering_state == ()
 
 
 def test_a_prismatic_joint_without_a_limit_goes_calmly_too():
@@ -78,5 +78,5 @@ def test_a_joint_outside_its_range_comes_back_into_it():
 
 def test_arrived_is_every_joint_in_its_place():
     state = start(WRIST, (0.1, 0.2, 0.3))
-    assert arrived(state, (0.1, 0.2, 0.3))
-    assert not arrived(state, (0.1, 0.2, 0.3 + 1e-6))
+    assert has_reached(state, (0.1, 0.2, 0.3))
+    assert not has_reached(state, (0.1, 0.2, 0.3 + 1e-6))

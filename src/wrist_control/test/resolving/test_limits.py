@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -16,6 +17,7 @@ from wrist_control.resolving.limits import (
     rate_overruns,
     smallest_share,
 )
+from wrist_control.rotations import IDENTITY, Pose
 from wrist_control.wrists import Clearance, Joint, make_wrist
 from wrist_control.wrists.wrist import Wrist
 
@@ -118,8 +120,8 @@ def test_no_limit_at_work_is_a_share_of_one():
     assert joint_overruns((Joint('psi'),), (0.0,), (1e9,), 0.1) == []
 
 
-def clearance(room, horizon=0.0):
-    return (Clearance('reach', room, horizon),)
+def clearance(remaining, horizon=0.0):
+    return (Clearance('reach', remaining, horizon),)
 
 
 def test_a_clearance_may_be_used_up_and_not_overdrawn():
@@ -151,6 +153,21 @@ class Fenced(Wrist):
 
     def clearances(self, positions):
         return (Clearance('fence', 0.5 - positions[0]),)
+
+    def forward(self, positions):
+        return Pose(IDENTITY)
+
+    def inverse(self, pose, near):
+        return tuple(near)
+
+    def jacobian(self, positions):
+        return np.zeros((3, 1))
+
+    def rates(self, positions, twist):
+        return (0.0,)
+
+    def margin(self, positions):
+        return 1.0
 
 
 def test_limits_of_the_joints_and_of_the_whole_wrist_are_found_together():

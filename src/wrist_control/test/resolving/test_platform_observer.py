@@ -7,13 +7,17 @@ import pytest
 
 from wrist_control import InvalidValueError, make_wrist
 from wrist_control.errors import RefusedError
-from wrist_control.resolving.platform_observer import Observer, Settings, in_metres_and_radians
+from wrist_control.resolving.platform_observer import (
+    Observer,
+    ObserverSettings,
+    in_metres_and_radians,
+)
 from wrist_control.rotations import IDENTITY, Pose, rates_between, turned
 from wrist_control.stewart.forward_kinematics import Solution, Status
 
 WRIST = make_wrist('stewart')
 NAMES = [joint.name for joint in WRIST.joints]
-CAREFUL = Settings([1e-4], 0.5, 1.0)
+CAREFUL = ObserverSettings([1e-4], 0.5, 1.0)
 
 
 @pytest.mark.parametrize('size', [0.05, 0.3, 1.0, 4.0])
@@ -75,4 +79,4 @@ def test_a_search_in_vain_is_not_repeated_at_once(monkeypatch):
 
 def test_a_noise_for_half_of_the_legs_is_refused():
     with pytest.raises(InvalidValueError, match='length_noise has 3 values'):
-        Observer(WRIST, Settings([1e-4] * 3, 0.5, 1.0))
+        Observer(WRIST, ObserverSettings([1e-4] * 3, 0.5, 1.0))

@@ -11,7 +11,7 @@ from wrist_control.resolving.report import WristState, sentence, state_of
 from wrist_control.resolving.step import resting
 
 WRIST = make_wrist('three_gimbal')
-STILL = (0.0, 0.0, 0.0)
+ZERO_TWIST = (0.0, 0.0, 0.0)
 YAW = (0.0, 0.0, 1.0)
 MESSAGES = Path(__file__).parents[3] / 'wrist_interfaces' / 'msg'
 
@@ -40,7 +40,7 @@ def test_the_values_are_those_of_the_message(enumeration, message):
 
 
 def test_idle_when_nothing_is_commanded():
-    assert told(made(), STILL) == (WristState.IDLE, 'Ready: no motion is commanded.')
+    assert told(made(), ZERO_TWIST) == (WristState.IDLE, 'Ready: no motion is commanded.')
 
 
 def test_tracking_when_all_of_the_command_is_followed():
@@ -125,7 +125,7 @@ def test_lock_matters_more_than_a_limit():
 
 
 def test_idle_matters_more_than_lock():
-    assert state_of(made(singular=True), STILL) == WristState.IDLE
+    assert state_of(made(singular=True), ZERO_TWIST) == WristState.IDLE
 
 
 def test_a_joint_held_at_its_end_while_it_would_be_too_fast_as_well_is_told_to_turn_back():
@@ -150,7 +150,7 @@ def test_every_message_is_one_sentence(name):
         *(made(wrist, scale_factor=0.5, limits=(limit(kind, joint),)) for kind in LimitKind),
     ]
     for one in steps:
-        for commanded in (STILL, YAW):
+        for commanded in (ZERO_TWIST, YAW):
             message = sentence(wrist, one, commanded)
             assert message.endswith('.')
             assert message[0].isupper() or message.startswith(joint)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.operating.maneuvers import BARKER_SPEED
 from wrist_control.resolving import SINGULAR_MARGIN, LimitKind, State, start, step
-from wrist_control.resolving.step import STILL, resting
+from wrist_control.resolving.step import ZERO_TWIST, resting
 from wrist_control.wrists import Clearance, Joint, Wrist
 
 WRIST = make_wrist('three_gimbal')
@@ -106,7 +106,7 @@ def test_no_command_leaves_the_state_itself(positions):
         made = step(WRIST, state, nothing, H)
         assert made.state is state
         assert made == resting(WRIST, state)
-        assert (made.scale_factor, made.achieved, made.limits) == (1.0, STILL, ())
+        assert (made.scale_factor, made.achieved, made.limits) == (1.0, ZERO_TWIST, ())
 
 
 @pytest.mark.parametrize('bad', [math.nan, math.inf, -math.inf])
@@ -248,8 +248,11 @@ class Rail(Wrist):
     def inverse(self, pose, near):
         phi = WRIST.inverse(pose, (0.0, 0.0, near[0]))[2]
         if abs(phi) > 1.0:
-            raise UnreachableError('Beyond 1 rad the rail ends')
+            raise UnreachableError('Beyond 1 rad the rail ends.', 'end of the rail')
         return (phi,)
+
+    def jacobian(self, positions):
+        return np.array([[1.0], [0.0], [0.0]])
 
     def rates(self, positions, twist):
         return (twist[0],)
@@ -260,8 +263,8 @@ class Rail(Wrist):
     def clearances(self, positions):
         return (Clearance('fence', self.fence - positions[0]),)
 
-    def steer(self, positions, factor, dt, memory):
-        return positions, ((memory or (0.0,))[0] + factor,)
+    def choose_branch_reference(self, positions, factor, dt, steering_state):
+        return positions, ((steering_state or (0.0,))[0] + factor,)
 
 
 def test_a_pose_out_of_reach_is_approached_by_shorter_steps_and_named():
@@ -269,15 +272,15 @@ def test_a_pose_out_of_reach_is_approached_by_shorter_steps_and_named():
     assert last.state.positions[0] == pytest.approx(1.0, abs=1e-5)
     assert last.state.positions[0] <= 1.0
     (limit,) = last.limits
-    assert (limit.kind, limit.joint) == (LimitKind.WORKSPACE, 'Beyond 1 rad the rail ends')
+    assert (limit.kind, limit.joint) == (LimitKind.WORKSPACE, 'end of the rail')
     assert step(Rail(), last.state, (-1.0, 0.0, 0.0), H).scale_factor == 1.0
 
 
-def test_the_wrist_is_told_the_factor_and_keeps_its_memory():
+def test_the_wrist_is_told_the_factor_and_keeps_its_steering_state():
     wrist = Rail().with_limits(rates=0.5)
     first, second = steps(wrist, start(wrist), (1.0, 0.0, 0.0), 2)
-    assert first.state.memory == (0.5,)
-    assert second.state.memory == (1.0,)
+    assert first.state.steering_state == (0.5,)
+    assert second.state.steering_state == (1.0,)
 
 
 def test_joints_that_lead_nowhere_are_an_error_and_not_a_motion():

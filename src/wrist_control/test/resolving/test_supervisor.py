@@ -11,8 +11,8 @@ from wrist_control.errors import RefusedError
 from wrist_control.resolving.commands import Command
 from wrist_control.resolving.homing import CALM
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.step import STILL
-from wrist_control.resolving.supervisor import LAG, LAG_TIME, Mode, Settings, Supervisor
+from wrist_control.resolving.step import ZERO_TWIST
+from wrist_control.resolving.supervisor import LAG, LAG_TIME, Mode, Supervisor, SupervisorSettings
 from wrist_control.rotations import to_hand
 from wrist_control.wrists import Joint, Wrist
 
@@ -31,7 +31,7 @@ class Clocked:
 
     def __init__(self, wrist=None, initial=START):
         wrist = wrist or WRIST.with_limits(rates=LIMIT, lower=-2.0, upper=2.0)
-        self.supervisor = Supervisor(wrist, Settings(DT, TIMEOUT, STOP, initial))
+        self.supervisor = Supervisor(wrist, SupervisorSettings(DT, TIMEOUT, STOP, initial))
         self.count = 0
 
     @property
@@ -46,7 +46,7 @@ class Clocked:
 
     def tick(self):
         self.count += 1
-        return self.supervisor.tick(self.now, self.now)
+        return self.supervisor.tick(stamp_time=self.now, receipt_time=self.now)
 
     def ticks(self, seconds, twist=None):
         """Return what each period brings, a command being sent before each if there is one."""
@@ -73,7 +73,7 @@ def wrist():
 def test_it_starts_at_rest_at_the_initial_positions(wrist):
     outcome = wrist.tick()
     assert wrist.positions == START
-    assert (outcome.wrist_state, outcome.commanded) == (WristState.IDLE, STILL)
+    assert (outcome.wrist_state, outcome.commanded) == (WristState.IDLE, ZERO_TWIST)
     assert outcome.moving_allowed
 
 
@@ -87,7 +87,7 @@ def test_a_command_is_followed_and_held_between_commands(wrist):
     outcomes = wrist.ticks(0.2)
     assert {outcome.wrist_state for outcome in outcomes} == {WristState.TRACKING}
     assert {outcome.commanded for outcome in outcomes} == {PITCH}
-    np.testing.assert_allclose([one.made.achieved for one in outcomes], [PITCH] * 20, atol=1e-12)
+    np.testing.assert_allclose([one.step.achieved for one in outcomes], [PITCH] * 20, atol=1e-12)
 
 
 def test_the_newest_command_counts(wrist):
@@ -98,13 +98,13 @@ def test_the_newest_command_counts(wrist):
 
 def test_a_stamped_command_counts_from_the_first_step_after_its_stamp(wrist):
     wrist.supervisor.take_command(Command(PITCH, False, 1.5 * DT, 0.0))
-    assert [one.commanded for one in wrist.ticks(2 * DT)] == [STILL, PITCH]
+    assert [one.commanded for one in wrist.ticks(2 * DT)] == [ZERO_TWIST, PITCH]
 
 
 def test_a_scaled_command_says_so_and_loses_time(wrist):
     outcome = wrist.ticks(0.1, (0.0, 0.0, 0.0, 1.0, 0.0, 0.0))[-1]
     assert outcome.wrist_state == WristState.SCALED
-    assert outcome.made.scale_factor == pytest.approx(0.5)
+    assert outcome.step.scale_factor == pytest.approx(0.5)
     assert wrist.supervisor.state.time_lost == pytest.approx(0.05)
 
 
@@ -145,7 +145,7 @@ def test_new_limits_count_from_the_next_step(wrist):
     wrist.ticks(0.05, PITCH)
     wrist.supervisor.wrist = wrist.supervisor.wrist.with_limits(rates=0.1)
     (outcome,) = wrist.ticks(DT, PITCH)
-    assert np.abs(outcome.made.joint_rates).max() == pytest.approx(0.1, rel=1e-3)
+    assert np.abs(outcome.step.joint_rates).max() == pytest.approx(0.1, rel=1e-3)
 
 
 # Commands that stop
@@ -161,7 +161,7 @@ def test_when_commands_stop_the_hand_is_ramped_to_a_stop_and_held(wrist):
     stale = [one.wrist_state == WristState.STALE for one in outcomes]
     assert stale.index(True) == 25
     assert all(stale[25:])
-    assert outcomes[-1].made.joint_rates == (0.0, 0.0, 0.0)
+    assert outcomes[-1].step.joint_rates == (0.0, 0.0, 0.0)
     assert outcomes[-1].message.startswith('No fresh command: ramped to a stop')
     assert outcomes[-1].moving_allowed
 
@@ -174,7 +174,7 @@ def test_a_fresh_command_ends_the_stop(wrist):
 
 
 def test_standing_still_is_not_stale_however_old_the_command(wrist):
-    wrist.command(STILL)
+    wrist.command(ZERO_TWIST)
     assert {one.wrist_state for one in wrist.ticks(1.0)} == {WristState.IDLE}
 
 
@@ -187,7 +187,7 @@ def test_disabled_nothing_moves_and_nothing_may_be_sent(wrist):
     assert wrist.supervisor.enable(False).startswith('Disabled')
     for outcome in wrist.ticks(0.1, PITCH):
         assert (outcome.wrist_state, outcome.moving_allowed) == (WristState.DISABLED, False)
-        assert outcome.made.joint_rates == (0.0, 0.0, 0.0)
+        assert outcome.step.joint_rates == (0.0, 0.0, 0.0)
         assert '~/enable' in outcome.message
     assert wrist.supervisor.state is before
 
@@ -251,16 +251,16 @@ def test_joints_may_come_in_any_order(wrist):
 @pytest.mark.parametrize(
     ('names', 'positions', 'reason', 'sentence'),
     [
-        (NAMES, (1.0, 1.0), 'wrong length', r'3 names and 2 positions; send one position for ea'),
+        (NAMES, (1.0, 1.0), 'wrong length', r'3 joint names and 2 values; send one value for ea'),
         (
             NAMES[:2],
             (1.0, 1.0),
             'wrong joint names',
-            r'psi, theta; this wrist needs psi, theta, phi',
+            r'phi is named 0 times; name each of psi, theta, phi once',
         ),
-        ((), (), 'wrong joint names', r'of no joint; this wrist needs'),
-        (('psi', 'theta', 'x'), (1.0,) * 3, 'wrong joint names', r'of psi, theta, x; this'),
-        ((*NAMES, 'psi'), (1.0,) * 4, 'wrong joint names', r'each once'),
+        ((), (), 'wrong joint names', r'psi is named 0 times'),
+        (('psi', 'theta', 'x'), (1.0,) * 3, 'wrong joint names', r'phi is named 0 times'),
+        ((*NAMES, 'psi'), (1.0,) * 4, 'wrong joint names', r'psi is named 2 times'),
         (NAMES, (1.0, math.nan, 1.0), 'not finite', r'not finite: \(1\.0, nan, 1\.0\)'),
         (NAMES, (1.0, 1.0, -math.inf), 'not finite', r'not finite'),
     ],
@@ -293,6 +293,9 @@ class Rail(Wrist):
     def inverse(self, pose, near):
         return WRIST.inverse(pose, (0.0, 0.0, near[0]))[2:]
 
+    def jacobian(self, positions):
+        return np.array([[1.0], [0.0], [0.0]])
+
     def rates(self, positions, twist):
         return (twist[0],)
 
@@ -316,7 +319,8 @@ def test_enabled_where_the_joints_cannot_be_it_is_a_fault_and_not_a_crash():
     wrist.ticks(DT, (0.0, 0.0, 0.0, 0.1, 0.0, 0.0))
     wrist.supervisor.enable(False)
     wrist.measure((2.0,), ('phi',))
-    assert 'cannot be assembled' in wrist.supervisor.enable(True)
+    with pytest.raises(UnreachableError, match='cannot be assembled'):
+        wrist.supervisor.enable(True)
     outcome = wrist.tick()
     assert (outcome.wrist_state, outcome.moving_allowed) == (WristState.FAULT, False)
     wrist.measure((0.5,), ('phi',))
@@ -340,9 +344,9 @@ def test_reset_goes_home_at_the_rate_limits_and_never_jumps(rates):
         outcome = wrist.tick()
         assert outcome.message.startswith('Resetting')
         assert outcome.moving_allowed
-        path.append(outcome.made.state.positions)
+        path.append(outcome.step.state.positions)
         moved = np.subtract(path[-1], path[-2])
-        np.testing.assert_allclose(outcome.made.joint_rates, moved / DT, atol=1e-9)
+        np.testing.assert_allclose(outcome.step.joint_rates, moved / DT, atol=1e-9)
     assert (np.abs(np.diff(path, axis=0)) <= DT * allowed * (1.0 + 1e-8)).all()
     assert len(path) > 50
     assert wrist.positions == START
@@ -362,7 +366,7 @@ def test_commands_during_a_reset_do_not_count_neither_then_nor_after(wrist):
     wrist.supervisor.reset()
     while wrist.supervisor.mode is Mode.HOMING:
         wrist.command(PITCH)
-        assert wrist.tick().commanded == STILL
+        assert wrist.tick().commanded == ZERO_TWIST
     assert wrist.tick().wrist_state == WristState.IDLE
     assert wrist.positions == START
     assert wrist.ticks(DT, PITCH)[0].wrist_state == WristState.TRACKING

@@ -54,7 +54,7 @@ def exact_beta(at, right):
 @given(poses)
 def test_nine_numbers_of_the_pose_say_the_lengths(pose):
     at = stages.unknowns(pose, SIZE)
-    right = quadratics.right_side(KNOWN, WRIST.held(pose))
+    right = quadratics.right_side(KNOWN, WRIST.assembly_at(pose))
     assert right == pytest.approx(quadratics.own_side(KNOWN, at), abs=1e-13)
     assert entries_of(at, right) == pytest.approx(np.zeros(6), abs=1e-13)
 
@@ -63,7 +63,7 @@ def test_nine_numbers_of_the_pose_say_the_lengths(pose):
 def test_the_bound_is_never_below_the_exact_norm(pose):
     at = stages.unknowns(pose, SIZE)
     rows = quadratics.inverse(KNOWN.free, at)
-    exact = exact_beta(at, quadratics.right_side(KNOWN, WRIST.held(pose)))
+    exact = exact_beta(at, quadratics.right_side(KNOWN, WRIST.assembly_at(pose)))
     bound = quadratics.beta(KNOWN, at, rows)
     assert bound >= exact
     assert bound <= 30.0 * exact
@@ -136,7 +136,7 @@ def test_the_moved_bound_holds_at_the_other_pose(one, other, share):
     bound = moved(quadratics.beta(KNOWN, a, quadratics.inverse(KNOWN.free, a)), math.dist(a, b))
     if bound < math.inf:
         # The linear rows tie x, y, v₁ to t, so compare on the surface of the same lengths.
-        right = quadratics.right_side(KNOWN, WRIST.held(one))
+        right = quadratics.right_side(KNOWN, WRIST.assembly_at(one))
         x, y, v1, *_ = np.array(right) + np.array(KNOWN.free) @ [b[2], b[4], b[5]]
         on = (x, y, b[2], v1, *b[4:])
         at_most = moved(
@@ -168,7 +168,7 @@ def test_a_root_beyond_the_branch_test_is_not_called_followed():
 def test_a_spoiled_answer_is_not_given_a_small_error(spoil):
     """The residual, not the iteration, decides: a point off by `spoil` is told to be off."""
     pose = Pose(turned(IDENTITY, (0.1, 0.2, 0.3), 1.0), (0.02, 0.01, 0.42))
-    right = quadratics.right_side(KNOWN, WRIST.held(pose))
+    right = quadratics.right_side(KNOWN, WRIST.assembly_at(pose))
     at = stages.unknowns(pose, SIZE)
     wrong, *e = quadratics.point(right, KNOWN.free, at[2] + spoil, at[4], at[5], 1.0)
     left = math.sqrt(e[0] ** 2 + 2 * e[1] ** 2 + e[2] ** 2)
@@ -185,7 +185,7 @@ def test_the_batch_proves_the_same():
              tuple(np.array([0, 0, 0.43]) + rng.uniform(-0.04, 0.04, 3)))
         for _ in range(30)
     ]  # fmt: skip
-    lengths = np.array([tuple(WRIST.held(pose)) for pose in found])
+    lengths = np.array([tuple(WRIST.assembly_at(pose)) for pose in found])
     start = np.array([stages.unknowns(pose, SIZE) for pose in found]).T
     tracks = batch.solve(KNOWN, lengths, start)
     for row, pose in enumerate(found):

@@ -55,7 +55,7 @@ def random_poses(n, shift, turn, seed=0):
 
 
 def lengths_of(pose, wrist=WRIST):
-    return tuple(wrist.held(pose))
+    return tuple(wrist.assembly_at(pose))
 
 
 def apart(one, other):
@@ -258,9 +258,9 @@ def test_a_way_that_crosses_lock_is_not_called_proved():
     beyond = Pose(about_z(2.0), HOME.position)
     solution = FK.solve(lengths_of(beyond))
     assert solution.status != Status.CONVERGED or apart(solution.pose, beyond) > 0.1 * SIZE
-    side = math.copysign(1.0, WRIST.home.hold)
+    side = math.copysign(1.0, WRIST.home.hadamard_ratio)
     if solution.status == Status.CONVERGED:
-        assert side * WRIST.held(solution.pose).hold > 0.0
+        assert side * WRIST.assembly_at(solution.pose).hadamard_ratio > 0.0
 
 
 @given(poses(0.15, 0.9))
@@ -268,8 +268,11 @@ def test_a_way_that_crosses_lock_is_not_called_proved():
 def test_what_home_leads_to_lies_on_its_own_side_of_lock(pose):
     solution = FK.solve(lengths_of(pose))
     if solution.status == Status.CONVERGED:
-        assert WRIST.held(solution.pose).hold * WRIST.home.hold > 0.0
-        assert apart(solution.pose, pose) < 1e-11 or WRIST.held(pose).hold * WRIST.home.hold < 0.0
+        assert WRIST.assembly_at(solution.pose).hadamard_ratio * WRIST.home.hadamard_ratio > 0.0
+        assert (
+            apart(solution.pose, pose) < 1e-11
+            or WRIST.assembly_at(pose).hadamard_ratio * WRIST.home.hadamard_ratio < 0.0
+        )
 
 
 def test_the_two_ways_agree_on_the_pose_and_both_bounds_hold():
@@ -348,7 +351,7 @@ def test_a_cold_start_finds_the_pose_and_says_that_the_lengths_are_ambiguous():
     other = cold.others[0].pose
     assert other.position[2] > 0.0
     assert lengths_of(other) == pytest.approx(lengths_of(TWICE), abs=1e-12)
-    assert WRIST.held(other).hold * WRIST.held(TWICE).hold > 0.0
+    assert WRIST.assembly_at(other).hadamard_ratio * WRIST.assembly_at(TWICE).hadamard_ratio > 0.0
     assert 'also fit' in cold.message
 
 

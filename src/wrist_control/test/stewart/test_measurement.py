@@ -11,7 +11,6 @@ from wrist_control.stewart.measurement import (
     check_jump,
     check_possible,
     impossible_pair,
-    in_order,
     platform_twist,
     pose_covariance,
 )
@@ -23,7 +22,7 @@ POSE = Pose(turned(IDENTITY, (0.3, -0.2, 0.4), 1.0), (0.03, -0.02, 0.45))
 
 def test_covariance_is_that_of_poses_solved_from_noisy_lengths():
     rng = np.random.default_rng(0)
-    lengths, sigma = WRIST.held(POSE), np.array([1, 2, 3, 4, 5, 6]) * 1e-5
+    lengths, sigma = WRIST.assembly_at(POSE), np.array([1, 2, 3, 4, 5, 6]) * 1e-5
     noisy = np.array(lengths) + sigma * rng.normal(size=(20000, 6))
     batch = WRIST.forward_kinematics.solve_batch(noisy, POSE)
     rows = zip(batch.quaternion.tolist(), batch.position.tolist(), strict=True)
@@ -44,7 +43,7 @@ def test_covariance_is_that_of_poses_solved_from_noisy_lengths():
 
 
 def test_one_noise_for_all_is_six_equal_ones():
-    lines = WRIST.held(POSE).lines
+    lines = WRIST.assembly_at(POSE).lines
     assert pose_covariance(lines, POSE, 1e-4) == pytest.approx(
         pose_covariance(lines, POSE, [1e-4] * 6)
     )
@@ -53,36 +52,18 @@ def test_one_noise_for_all_is_six_equal_ones():
 @pytest.mark.parametrize('noise', [-1e-4, math.nan, math.inf])
 def test_noise_that_is_none_is_refused(noise):
     with pytest.raises(InvalidValueError, match='length_noise is'):
-        pose_covariance(WRIST.held(POSE).lines, POSE, noise)
+        pose_covariance(WRIST.assembly_at(POSE).lines, POSE, noise)
 
 
 def test_the_twist_is_what_made_the_rates():
-    lengths, twist = WRIST.held(POSE), (0.1, -0.2, 0.05, 0.3, 0.2, -0.4)
+    lengths, twist = WRIST.assembly_at(POSE), (0.1, -0.2, 0.05, 0.3, 0.2, -0.4)
     assert platform_twist(lengths.lines, WRIST.rates(lengths, twist)) == pytest.approx(twist)
 
 
 def test_lengths_do_not_tell_the_twist_at_lock():
-    flat = WRIST.held(Pose(IDENTITY, (0.0, 0.0, 0.0)))
+    flat = WRIST.assembly_at(Pose(IDENTITY, (0.0, 0.0, 0.0)))
     with pytest.raises(InvalidValueError, match='at lock'):
         platform_twist(flat.lines, (0.0,) * 6)
-
-
-def test_legs_are_put_in_order_among_other_joints():
-    names = ['elbow', *reversed(NAMES)]
-    assert in_order(NAMES, names, [9.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0]) == (1, 2, 3, 4, 5, 6)
-
-
-@pytest.mark.parametrize(
-    ('names', 'values', 'says'),
-    [
-        (NAMES[:5], [0.5] * 5, 'leg_6 is named 0 times'),
-        ([*NAMES, 'leg_2'], [0.5] * 7, 'leg_2 is named 2 times'),
-        (NAMES, [0.5] * 5, '6 joint names and 5 values'),
-    ],
-)
-def test_missing_and_repeated_legs_are_named(names, values, says):
-    with pytest.raises(InvalidValueError, match=says):
-        in_order(NAMES, names, values)
 
 
 def test_legs_that_contradict_each_other_are_named():
@@ -96,9 +77,9 @@ def test_lengths_of_real_poses_never_contradict_each_other():
         pose = Pose(
             turned(IDENTITY, tuple(rng.uniform(-3, 3, 3)), 1.0), tuple(rng.uniform(-0.6, 0.6, 3))
         )
-        assert impossible_pair(WRIST.platform, WRIST.base, WRIST.held(pose)) is None
+        assert impossible_pair(WRIST.platform, WRIST.base, WRIST.assembly_at(pose)) is None
     stretched = Pose(about_z(0.0), (5.0, 0.0, 0.0))
-    assert impossible_pair(WRIST.platform, WRIST.base, WRIST.held(stretched)) is None
+    assert impossible_pair(WRIST.platform, WRIST.base, WRIST.assembly_at(stretched)) is None
 
 
 def test_two_legs_too_short_to_span_their_anchors_are_named():

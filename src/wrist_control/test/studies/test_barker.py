@@ -11,7 +11,7 @@ from wrist_control.operating.maneuvers import BARKER_SPEED
 from wrist_control.resolving import SINGULAR_MARGIN
 from wrist_control.studies.barker import (
     angle_from_vertical,
-    path_error,
+    arc_error,
     pause,
     peak_rates,
     three_gimbal_table,
@@ -71,7 +71,7 @@ def test_figure_6_the_whole_hand_follows_the_command_and_nothing_is_lost(unscale
     assert (unscaled.scale_factor == 1.0).all()
     assert unscaled.time_lost[-1] == 0.0
     np.testing.assert_allclose(unscaled.achieved[:, 3:], unscaled.command, atol=1e-12)
-    assert path_error(unscaled) < 1e-12
+    assert arc_error(unscaled) < 1e-12
 
 
 # Figure 7: the jump at lock
@@ -145,8 +145,8 @@ def test_figure_8_psi_and_phi_turn_at_their_limit_all_through_the_pause(scaled):
 
 
 def test_figure_8_the_path_of_the_hand_is_the_same_to_0_0677_degrees(scaled):
-    assert digits(math.degrees(path_error(scaled))) == 0.0677
-    assert path_error(scaled) == pytest.approx(0.001182, abs=5e-7)
+    assert digits(math.degrees(arc_error(scaled))) == 0.0677
+    assert arc_error(scaled) == pytest.approx(0.001182, abs=5e-7)
     assert tip_error(scaled, -1, (0.0, 1.0, 0.0)) < 0.0012
 
 
@@ -158,9 +158,9 @@ def test_figure_8_the_path_error_is_what_the_singular_region_leaves_behind(scale
     out = inside[-1] + 1
     psi = scaled.joint_positions[out, 0]
     left_behind = scaled.margin[out] * math.cos(psi)
-    assert path_error(scaled) == pytest.approx(left_behind, rel=1e-5)
+    assert arc_error(scaled) == pytest.approx(left_behind, rel=1e-5)
     one_step = scaled.margin[out] - scaled.margin[out - 1]
-    assert path_error(scaled) < SINGULAR_MARGIN + one_step
+    assert arc_error(scaled) < SINGULAR_MARGIN + one_step
     z_of_hand = scaled.hand_rotation[out:, 2]
     np.testing.assert_allclose(
         z_of_hand, np.broadcast_to(z_of_hand[0], z_of_hand.shape), atol=1e-12
@@ -169,7 +169,7 @@ def test_figure_8_the_path_error_is_what_the_singular_region_leaves_behind(scale
 
 def test_figure_8_shorter_steps_bring_the_path_error_below_epsilon():
     errors = [
-        path_error(fly('three_gimbal', 'basic_test', rate, BARKER_SPEED))
+        arc_error(fly('three_gimbal', 'basic_test', rate, BARKER_SPEED))
         for rate in (32.0, 64.0, 128.0)
     ]
     assert errors == sorted(errors, reverse=True)

@@ -25,12 +25,12 @@ SHORT = Maneuver('short', (turn(1, 0.2, BARKER_SPEED), turn(2, 0.1, BARKER_SPEED
 
 @pytest.mark.parametrize('name', WRISTS)
 def test_every_wrist_can_be_compared(name):
-    (outcome,) = compare([name], [SHORT])
-    assert outcome.completed
-    assert 0.0 < outcome.peak_rate <= 1.0 + 1e-9
-    assert outcome.free_peak_rate >= outcome.peak_rate * (1.0 - 1e-9)
-    assert outcome.path_error < 1e-6
-    assert outcome.stopped_by == ''
+    (performance,) = compare([name], [SHORT])
+    assert performance.completed
+    assert 0.0 < performance.peak_rate <= 1.0 + 1e-9
+    assert performance.free_peak_rate >= performance.peak_rate * (1.0 - 1e-9)
+    assert performance.path_error < 1e-6
+    assert performance.stopped_by == ''
 
 
 def test_the_comparison_is_the_same_each_time():
@@ -40,11 +40,13 @@ def test_the_comparison_is_the_same_each_time():
         pairs.extend(flights)
         return flights
 
-    outcomes = compare(['three_gimbal', 'carpal'], [SHORT, make_maneuver('basic_test')], listed)
-    assert [(o.wrist, o.maneuver) for o in outcomes] == [(w, m.name) for w, m in pairs]
-    assert len(outcomes) == 4
+    performances = compare(
+        ['three_gimbal', 'carpal'], [SHORT, make_maneuver('basic_test')], listed
+    )
+    assert [(o.wrist, o.maneuver) for o in performances] == [(w, m.name) for w, m in pairs]
+    assert len(performances) == 4
     again = compare(['three_gimbal', 'carpal'], [SHORT])
-    assert rows(again) == rows(outcomes[:2])
+    assert rows(again) == rows(performances[:2])
 
 
 def test_a_pointer_is_asked_what_it_can_follow():
@@ -122,9 +124,9 @@ def test_lock_costs_the_three_gimbal_wrist_what_the_paper_says_and_the_double_ho
 
 
 def test_table_and_markdown_show_every_outcome():
-    outcomes = compare(['three_gimbal', 'carpal'], [SHORT])
-    assert table(outcomes).row_count == 2
-    lines = markdown(outcomes).splitlines()
+    performances = compare(['three_gimbal', 'carpal'], [SHORT])
+    assert table(performances).row_count == 2
+    lines = markdown(performances).splitlines()
     assert lines[0] == '| ' + ' | '.join(HEADINGS) + ' |'
     assert '| short | carpal * |' in lines[3]
 

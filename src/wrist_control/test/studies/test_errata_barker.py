@@ -225,7 +225,7 @@ def test_figures_4c_and_5b_gimbal_angles():
 
 
 def test_figure_5a_alpha_extrapolates_from_two_rates():
-    (*_, alpha), _ = FOUR.steer(GIMBALS, 1.0, H, (0.1,))
+    (*_, alpha), _ = FOUR.choose_branch_reference(GIMBALS, 1.0, H, (0.1,))
     rate = FOUR.rates(GIMBALS, TWIST)[3]
     assert alpha == pytest.approx(ALPHA + 0.5 * H * (3.0 * rate - 0.1))
 

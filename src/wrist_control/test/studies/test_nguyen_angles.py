@@ -52,7 +52,7 @@ def test_the_modified_jacobian_is_the_difference_of_the_lengths(position, a):
 @given(positions, angles)
 def test_it_is_the_geometric_one_with_angle_rates_for_turning_rates(position, a):
     pose = pose_of(position, a)
-    lines = np.array(WRIST.held(pose).lines)
+    lines = np.array(WRIST.assembly_at(pose).lines)
     # ω in base axes of α̇, β̇, γ̇: z; y turned by α; x turned by α and β.
     turn_z, turn_zy = PaperAngles(a[0], 0.0, 0.0), PaperAngles(a[0], a[1], 0.0)
     axes = np.column_stack(

@@ -12,7 +12,10 @@ from wrist_control import InvalidValueError, UnreachableError, fly, make_wrist
 from wrist_control.operating.maneuvers import Maneuver, Segment
 from wrist_control.resolving import LimitKind, start, step
 from wrist_control.rotations import Pose, about_z, product, rates_between, turned
-from wrist_control.wrists.carpal import EDGE, Carpal
+from wrist_control.wrists.carpal import Carpal
+
+# The hand stops this far before its edge: `soft_edge`.
+STOP = 0.02
 
 AZIMUTHS = np.radians([0.0, 120.0, 240.0])
 RADIAL = np.stack([np.cos(AZIMUTHS), np.sin(AZIMUTHS), np.zeros(3)], axis=1)
@@ -100,7 +103,7 @@ def test_inverse_undoes_forward(wrist, positions):
 @given(angles, angles)
 def test_every_leg_has_two_branches_and_all_eight_make_the_pose(p, q):
     wrist = Carpal()
-    pose = wrist.advance(wrist.forward(wrist.home), (p, q, 0.0), 1.0)
+    pose = wrist.target_pose(wrist.forward(wrist.home), (p, q, 0.0), 1.0)
     outer = wrist.inverse(pose, wrist.home)
     inner = wrist.inverse(pose, (math.pi,) * 3)
     for chosen in itertools.product(*zip(outer, inner, strict=True)):
@@ -175,8 +178,8 @@ def test_roll_alone_moves_nothing(positions, twist):
 @given(rates, rates)
 def test_advance_follows_p_and_q_exactly_over_any_step(first, second):
     wrist = Carpal(plunge=0.05)
-    pose = wrist.advance(wrist.forward(wrist.home), first, 0.3)
-    after = wrist.advance(pose, second, 0.3)
+    pose = wrist.target_pose(wrist.forward(wrist.home), first, 0.3)
+    after = wrist.target_pose(pose, second, 0.3)
     p, q, _ = rates_between(pose.quaternion, after.quaternion, 0.3)
     assert (p, q) == pytest.approx(second[:2], abs=1e-9)
 
@@ -184,10 +187,10 @@ def test_advance_follows_p_and_q_exactly_over_any_step(first, second):
 @given(rates, rates)
 def test_one_long_step_ends_where_many_short_ones_do(first, second):
     wrist = Carpal(plunge=0.05)
-    pose = wrist.advance(wrist.forward(wrist.home), first, 0.3)
-    once, often = wrist.advance(pose, second, 0.3), pose
+    pose = wrist.target_pose(wrist.forward(wrist.home), first, 0.3)
+    once, often = wrist.target_pose(pose, second, 0.3), pose
     for _ in range(30):
-        often = wrist.advance(often, second, 0.01)
+        often = wrist.target_pose(often, second, 0.01)
     np.testing.assert_allclose(once.rotation, often.rotation, atol=1e-12)
     np.testing.assert_allclose(once.position, often.position, atol=1e-12)
 
@@ -195,8 +198,8 @@ def test_one_long_step_ends_where_many_short_ones_do(first, second):
 @given(rates, rates)
 def test_advance_holds_the_plunge_and_stays_free_of_torsion(first, second):
     wrist = Carpal(plunge=0.05)
-    pose = wrist.advance(wrist.forward(wrist.home), first, 0.3)
-    pose = wrist.advance(pose, second, 0.3)
+    pose = wrist.target_pose(wrist.forward(wrist.home), first, 0.3)
+    pose = wrist.target_pose(pose, second, 0.3)
     assert pose.quaternion[1] == 0.0
     positions = wrist.inverse(pose, wrist.home)
     assert normal_and_plunge(wrist, np.array(positions))[2] == pytest.approx(0.05)
@@ -221,7 +224,7 @@ def test_inside_the_workspace_nothing_but_closure_is_singular(wrist, azimuth, sh
     aim = (-math.sin(azimuth) * tilt, math.cos(azimuth) * tilt, 0.0)
     positions = wrist.home
     for part in np.linspace(0.0, 1.0, 20):
-        pose = wrist.advance(wrist.forward(wrist.home), aim, part)
+        pose = wrist.target_pose(wrist.forward(wrist.home), aim, part)
         positions = wrist.inverse(pose, positions)
     assert np.all(wrist.base_radius + wrist.leg_length * np.cos(positions) > 0.0)
     assert np.linalg.det(wrist.normal_jacobian(positions)) > 0.0
@@ -268,7 +271,7 @@ def test_edge_is_neared_without_overshoot_and_left_freely(heading, rate, limit):
     flight = fly(wrist, there_and_back(heading), rate=rate, joint_rate_limits=limit)
     tilt = np.arccos(np.clip(flight.hand_rotation[:, 2, 2], -1.0, 1.0))
     edge = wrist.reach(heading - 0.5 * math.pi)
-    assert flight.margin.min() >= EDGE - 1e-9
+    assert flight.margin.min() >= STOP - 1e-9
     assert edge - math.radians(1.0) < tilt.max() < edge
     assert tilt[-1] < tilt.max() - math.radians(5.0)
     if limit is not None:
@@ -312,6 +315,6 @@ def test_bad_dimensions_are_refused_with_what_is_valid(dimensions, sentence):
 
 def test_a_long_step_cannot_jump_over_the_half_turn():
     wrist = Carpal(plunge=0.05)
-    pose = wrist.advance(wrist.forward(wrist.home), (0.0, math.radians(175.0), 0.0), 1.0)
+    pose = wrist.target_pose(wrist.forward(wrist.home), (0.0, math.radians(175.0), 0.0), 1.0)
     with pytest.raises(UnreachableError, match='half turn'):
-        wrist.advance(pose, (0.0, math.radians(10.0), 0.0), 1.0)
+        wrist.target_pose(pose, (0.0, math.radians(10.0), 0.0), 1.0)

@@ -122,10 +122,10 @@ def test_a_whole_roll_at_full_bend_moves_neither_the_direction_nor_the_origin():
 
 def test_barkers_basic_maneuver_rides_on_the_cone_and_completes():
     flight = fly('double_hooke', 'basic_test')
-    rooms = [flight.wrist.clearances(row)[0].room for row in flight.joint_positions]
+    all_remaining = [flight.wrist.clearances(row)[0].remaining for row in flight.joint_positions]
     assert flight.completed
     assert flight.time_lost[-1] == 0.0
-    np.testing.assert_allclose(rooms[90:], 0.0, atol=1e-9)
+    np.testing.assert_allclose(all_remaining[90:], 0.0, atol=1e-9)
     np.testing.assert_allclose(np.degrees(flight.joint_positions[-1]), (90, 45, 0), atol=1e-6)
 
 

@@ -68,7 +68,7 @@ def test_rates_make_p_and_q_and_the_roll_they_force(positions, twist):
 def test_advance_makes_p_and_q_to_second_order(positions, twist):
     pose = WRIST.forward(positions)
     for dt in (0.02, 0.01):
-        after = WRIST.advance(pose, twist, dt)
+        after = WRIST.target_pose(pose, twist, dt)
         p, q, _ = rates_between(pose.quaternion, after.quaternion, dt)
         curvature = 1.0 / math.cos(positions[0]) ** 2
         assert abs(p - twist[0]) < 2.0 * curvature * dt**2

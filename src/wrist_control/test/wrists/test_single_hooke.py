@@ -48,7 +48,7 @@ def test_inverse_stays_on_the_branch_and_in_the_turn_of_near(positions, turns):
 def test_the_room_is_that_of_a_cone_about_the_forearm(positions):
     (cone,) = WRIST.clearances(positions)
     cos_bend = WRIST.forward(positions).rotation[0, 0]  # x of the hand along x of the forearm
-    assert cone.room == pytest.approx(cos_bend - math.cos(math.radians(45.0)), abs=1e-12)
+    assert cone.remaining == pytest.approx(cos_bend - math.cos(math.radians(45.0)), abs=1e-12)
 
 
 @settings(max_examples=50, deadline=None)
@@ -64,10 +64,10 @@ def test_the_hand_never_leaves_the_cone_and_can_always_come_back(azimuth, push):
     assert made.scale_factor < 1e-6
     assert [limit.kind for limit in made.limits] == [LimitKind.WORKSPACE]
     assert made.limits[0].joint == 'cone'
-    assert wrist.clearances(state.positions)[0].room == pytest.approx(0.0, abs=1e-8)
+    assert wrist.clearances(state.positions)[0].remaining == pytest.approx(0.0, abs=1e-8)
     for _ in range(5):
         pushed = step(wrist, state, push, 0.05)
-        assert wrist.clearances(pushed.state.positions)[0].room >= -2e-9
+        assert wrist.clearances(pushed.state.positions)[0].remaining >= -2e-9
         state = pushed.state
     back = step(wrist, made.state, tuple(-x for x in out), 0.05)
     assert back.scale_factor == 1.0
@@ -78,7 +78,7 @@ def test_on_the_cone_a_command_that_leads_barely_inward_still_moves():
     state = start(WRIST, (0.0, math.radians(45.0), 0.0))
     made = step(WRIST, state, (0.0, -0.002, 0.5), 0.05)
     assert 0.0 < made.scale_factor < 1.0
-    assert WRIST.clearances(made.state.positions)[0].room >= -1e-9
+    assert WRIST.clearances(made.state.positions)[0].remaining >= -1e-9
     outward = step(WRIST, state, (0.0, 0.002, 0.5), 0.05)
     assert outward.scale_factor < 1e-4
 
@@ -88,7 +88,7 @@ def test_pushing_against_the_cone_for_long_does_not_creep_out_of_it(speed):
     state = start(WRIST, (0.0, math.radians(45.0), 0.0))
     for _ in range(1000):
         state = step(WRIST, state, (0.0, speed, 0.2 * speed), 0.01).state
-    assert WRIST.clearances(state.positions)[0].room > -2.1e-9
+    assert WRIST.clearances(state.positions)[0].remaining > -2.1e-9
 
 
 def test_the_basic_maneuver_ends_at_the_cone():

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.resolving import LimitKind, start, step
-from wrist_control.resolving.homing import arrived, step_towards
+from wrist_control.resolving.homing import has_reached, step_towards
 from wrist_control.rotations import Pose, about_z, rates_between, turned
-from wrist_control.wrists.stewart import EDGE, INCH, LegLengths
+from wrist_control.units import INCH
+from wrist_control.wrists.stewart import EDGE, LegConfiguration
 
 WRIST = make_wrist('stewart')
 HOME = WRIST.home.pose
@@ -67,21 +68,21 @@ def test_lengths_are_those_of_explicit_matrices(pose):
 
 @given(poses, twists)
 def test_rates_are_the_change_of_the_lengths(pose, twist):
-    lengths, h = WRIST.held(pose), 1e-6
-    ahead, behind = (explicit_lengths(WRIST.advance(pose, twist, dt)) for dt in (h, -h))
+    lengths, h = WRIST.assembly_at(pose), 1e-6
+    ahead, behind = (explicit_lengths(WRIST.target_pose(pose, twist, dt)) for dt in (h, -h))
     assert WRIST.rates(lengths, twist) == pytest.approx((ahead - behind) / (2 * h), abs=1e-8)
 
 
 @given(poses, twists)
 def test_jacobian_gives_back_the_twist(pose, twist):
-    lengths = WRIST.held(pose)
+    lengths = WRIST.assembly_at(pose)
     rates = WRIST.rates(lengths, twist)
     assert WRIST.jacobian(lengths) @ rates == pytest.approx(twist, abs=1e-11)
 
 
 @given(poses, twists, st.tuples(*[st.floats(-50.0, 50.0)] * 6))
 def test_legs_do_the_work_that_the_platform_gets(pose, twist, forces):
-    lengths = WRIST.held(pose)
+    lengths = WRIST.assembly_at(pose)
     rotation, d = pose.rotation.T, np.array(pose.position)
     arms = np.array(WRIST.platform) @ rotation.T
     pulls = d + arms - np.array(WRIST.base)
@@ -98,14 +99,14 @@ def test_home_is_level_centred_and_all_legs_are_equal():
 
 def test_lengths_without_a_pose_belong_to_home():
     pose = Pose(turned(HOME.quaternion, (0.2, -0.1, 0.3), 1.0), (0.03, -0.02, 0.45))
-    plain = tuple(WRIST.held(pose))
+    plain = tuple(WRIST.assembly_at(pose))
     found = WRIST.forward(plain)
-    assert not isinstance(plain, LegLengths)
+    assert not isinstance(plain, LegConfiguration)
     assert found.position == pytest.approx(pose.position, abs=1e-14)
     assert rates_between(found.quaternion, pose.quaternion, 1.0) == pytest.approx(
         (0, 0, 0), abs=1e-13
     )
-    assert WRIST.margin(plain) == pytest.approx(WRIST.margin(WRIST.held(pose)))
+    assert WRIST.margin(plain) == pytest.approx(WRIST.margin(WRIST.assembly_at(pose)))
 
 
 def test_lengths_that_no_pose_has_are_refused():
@@ -116,13 +117,13 @@ def test_lengths_that_no_pose_has_are_refused():
 def test_a_platform_on_its_base_is_refused():
     pose = Pose(HOME.quaternion, tuple(np.subtract(WRIST.base[0], WRIST.platform[0])))
     with pytest.raises(UnreachableError, match='no length'):
-        WRIST.held(pose)
+        WRIST.assembly_at(pose)
 
 
 @pytest.mark.parametrize('side', [-1.0, 1.0])
 def test_yaw_of_a_quarter_turn_is_lock(side):
     at = Pose(about_z(side * 0.5 * math.pi), HOME.position)
-    assert WRIST.margin(WRIST.held(at)) == pytest.approx(0.0, abs=1e-12)
+    assert WRIST.margin(WRIST.assembly_at(at)) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_margin_has_no_unit():
@@ -134,16 +135,18 @@ def test_margin_has_no_unit():
         home_height=10.0 * WRIST.home_height,
     )
     larger = Pose(pose.quaternion, tuple(10.0 * x for x in pose.position))
-    assert ten.margin(ten.held(larger)) == pytest.approx(WRIST.margin(WRIST.held(pose)))
+    assert ten.margin(ten.assembly_at(larger)) == pytest.approx(
+        WRIST.margin(WRIST.assembly_at(pose))
+    )
 
 
 @given(poses)
 def test_margin_is_at_most_one(pose):
-    assert 0.0 <= WRIST.margin(WRIST.held(pose)) <= 1.0
+    assert 0.0 <= WRIST.margin(WRIST.assembly_at(pose)) <= 1.0
 
 
 def test_the_lost_axis_at_a_quarter_turn_is_the_normal():
-    lengths = WRIST.held(Pose(about_z(0.5 * math.pi - 1e-6), HOME.position))
+    lengths = WRIST.assembly_at(Pose(about_z(0.5 * math.pi - 1e-6), HOME.position))
     assert np.abs(WRIST.lost_axis(lengths)) == pytest.approx((0, 0, 1), abs=1e-3)
 
 
@@ -179,7 +182,7 @@ def test_the_hand_slows_before_lock_and_backs_out_freely(twist):
 def test_one_long_step_cannot_jump_over_lock():
     made = step(WRIST, start(WRIST), (0, 0, 0, 0, 0, 1.0), 2.5)
     assert made.scale_factor < 1.0
-    assert WRIST.clearances(made.state.positions)[0].room > -1e-8
+    assert WRIST.clearances(made.state.positions)[0].remaining > -1e-8
 
 
 def test_the_stroke_ends_the_motion_and_backing_out_is_free():
@@ -203,7 +206,7 @@ def test_the_way_home_is_made_of_lengths_alone():
     state = fly(wrist, (0.05, -0.05, 0.02, 0.3, 0.2, -0.3), 100, start(wrist)).state
     for _ in range(200):
         state = step_towards(wrist, state, wrist.home, DT)
-    assert arrived(state, wrist.home)
+    assert has_reached(state, wrist.home)
     assert state.pose.position == pytest.approx(HOME.position, abs=1e-9)
     assert step(wrist, state, (0, 0, 0, 0, 0, 0.1), DT).scale_factor == 1.0
 

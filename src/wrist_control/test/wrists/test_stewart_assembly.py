@@ -6,14 +6,14 @@ import pytest
 
 from wrist_control import UnreachableError, make_wrist
 from wrist_control.errors import RefusedError
-from wrist_control.resolving.homing import arrived, step_towards
+from wrist_control.resolving.homing import has_reached, step_towards
 from wrist_control.resolving.step import start, step
-from wrist_control.resolving.supervisor import Mode, Settings, Supervisor
+from wrist_control.resolving.supervisor import Mode, Supervisor, SupervisorSettings
 from wrist_control.rotations import Pose
 
 WRIST = make_wrist('stewart')
 NAMES = [joint.name for joint in WRIST.joints]
-SETTINGS = Settings(0.01, 0.25, 0.1, tuple(WRIST.home))
+SETTINGS = SupervisorSettings(0.01, 0.25, 0.1, tuple(WRIST.home))
 
 
 # Commands of 1.2 s each that lead, without stroke limits, to where lengths mislead.
@@ -58,14 +58,14 @@ def test_lengths_that_are_far_from_home_and_fit_other_poses_are_refused():
     assert len(MISLED) > 2
     for state in MISLED:
         with pytest.raises(UnreachableError, match='fit more than one pose'):
-            WRIST.assembled(tuple(state.positions), WRIST.home.pose)
+            WRIST.resolve_assembly(tuple(state.positions), WRIST.home.pose)
 
 
 def test_lengths_close_to_a_pose_belong_to_it_wherever_it_is():
     for state in MISLED:
         x, y, z = state.pose.position
-        moved = WRIST.held(Pose(state.pose.quaternion, (x + 1e-3, y, z)))
-        found = WRIST.assembled(tuple(moved), state.pose)
+        moved = WRIST.assembly_at(Pose(state.pose.quaternion, (x + 1e-3, y, z)))
+        found = WRIST.resolve_assembly(tuple(moved), state.pose)
         assert found.pose.position == pytest.approx(moved.pose.position, abs=1e-9)
 
 
@@ -74,7 +74,7 @@ def test_the_way_home_never_jumps_and_ends_at_home(seconds):
     before = start(WRIST)
     for _ in range(round(seconds / 0.02)):
         before = step(WRIST, before, WALKS[0][0], 0.02).state
-    while not arrived(before, WRIST.home):
+    while not has_reached(before, WRIST.home):
         state = step_towards(WRIST, before, WRIST.home, 0.01)
         assert math.dist(state.pose.position, before.pose.position) < 0.01
         before = state
@@ -95,7 +95,7 @@ def test_a_first_reading_that_fits_several_poses_is_a_fault_and_not_a_jump():
     with pytest.raises(UnreachableError):
         supervisor.take_measured(NAMES, tuple(MISLED[0].positions), 0.0)
     assert supervisor.mode is Mode.FAULT
-    assert not supervisor.tick(0.0, 0.0).moving_allowed
+    assert not supervisor.tick(stamp_time=0.0, receipt_time=0.0).moving_allowed
 
 
 def test_a_reading_that_cannot_be_after_a_good_one_changes_nothing():
@@ -113,5 +113,5 @@ def test_a_reading_that_cannot_be_after_a_good_one_changes_nothing():
 def test_a_measured_start_is_adopted_with_its_pose():
     pose = Pose(WRIST.home.pose.quaternion, (0.01, -0.02, 0.45))
     supervisor = Supervisor(WRIST, SETTINGS)
-    supervisor.take_measured(NAMES, tuple(WRIST.held(pose)), 0.0)
+    supervisor.take_measured(NAMES, tuple(WRIST.assembly_at(pose)), 0.0)
     assert supervisor.state.pose.position == pytest.approx(pose.position, abs=1e-12)

@@ -71,7 +71,7 @@ def twist_between(wrist, before, after, dt):
 def test_home_is_a_place_to_start_from(wrist):
     state = start(wrist)
     assert wrist.margin(state.positions) >= SINGULAR_MARGIN
-    assert all(clearance.room >= 0.0 for clearance in wrist.clearances(state.positions))
+    assert all(clearance.remaining >= 0.0 for clearance in wrist.clearances(state.positions))
 
 
 @every_wrist
@@ -134,7 +134,7 @@ def test_no_step_ever_breaks_a_limit(wrist, commands):
         ):
             assert abs(rate) <= joint.rate_limit * (1.0 + 1e-6)
             assert joint.lower - 2e-9 <= position <= joint.upper + 2e-9
-        assert all(clearance.room >= -2e-9 for clearance in wrist.clearances(after.positions))
+        assert all(clearance.remaining >= -2e-9 for clearance in wrist.clearances(after.positions))
         assert 0.0 <= made.scale_factor <= 1.0
         assert after.time_lost >= before.time_lost
         assert math.isfinite(sum(after.positions) + sum(made.achieved) + made.margin)

@@ -11,14 +11,15 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
 from wrist_control.errors import InvalidValueError, RefusedError
-from wrist_control.resolving.newest import Newest
+from wrist_control.resolving.joint_order import in_joint_order
+from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.simulated_joint import follow
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
 from wrist_control.ros.parameters import Spec, declare
 from wrist_control.ros.qos import EVERY, OUTPUT
 from wrist_control.ros.running import run
-from wrist_control.wrists.wrist import Joint, one_for_each
+from wrist_control.wrists.joint import Joint, broadcast_to_joints
 
 EACH = 'one for each joint, or one for all'
 SPECS = [
@@ -58,7 +59,7 @@ class JointSimulator(Node):
         self._values = declare(self, SPECS)
         self._joints: list[Joint] = []
         self._positions: list[float] = []
-        self._commands: Newest[list[float]] = Newest()
+        self._commands: LatestMessage[list[float]] = LatestMessage()
         if self._values['joints']:
             self._begin(self._values['joints'], None)
         self._diagnostics = Diagnostics(self, self._health)
@@ -90,11 +91,11 @@ class JointSimulator(Node):
         self._joints, self._positions = joints, list(positions)
 
     def _spread(self, parameter: str, names: list[str]) -> list[float]:
-        return one_for_each(parameter, self._values[parameter], names)
+        return broadcast_to_joints(parameter, self._values[parameter], names)
 
     def _on_command(self, message: JointState) -> None:
         try:
-            wanted = self._sorted(list(message.name), [float(x) for x in message.position])
+            wanted = self._wanted(list(message.name), list(message.position))
         except RefusedError as error:
             self._diagnostics.refuse('joint_command', error)
         except InvalidValueError as error:
@@ -102,25 +103,14 @@ class JointSimulator(Node):
         else:
             self._commands.put(convert.seconds(message.header.stamp), wanted)
 
-    def _sorted(self, names: list[str], positions: list[float]) -> list[float]:
-        if len(names) != len(positions) or not names:
-            raise RefusedError(
-                'wrong length',
-                f'Refused a command with {len(names)} names and {len(positions)} positions; send '
-                'one position for each name.',
-            )
-        if not all(math.isfinite(x) for x in positions):
-            raise RefusedError('not finite', f'Refused a command that is not finite: {positions}.')
+    def _wanted(self, names: list[str], positions: list[float]) -> list[float]:
+        known = [joint.name for joint in self._joints] or names
+        wanted = list(in_joint_order(known, names, positions))
+        if not wanted or not all(math.isfinite(x) for x in wanted):
+            raise RefusedError('not finite', f'Refused a command that is not finite: {wanted}.')
         if not self._joints:
-            self._begin(names, positions)
-        known = [joint.name for joint in self._joints]
-        if sorted(names) != sorted(known):
-            raise RefusedError(
-                'wrong joint names',
-                f'Refused a command for {", ".join(names)}; these joints are {", ".join(known)}.',
-            )
-        wanted = dict(zip(names, positions, strict=True))
-        return [wanted[name] for name in known]
+            self._begin(names, wanted)
+        return wanted
 
     def _tick(self) -> None:
         if not self._joints:

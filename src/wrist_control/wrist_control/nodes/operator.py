@@ -13,9 +13,15 @@ from sensor_msgs.msg import Joy
 from std_msgs.msg import Header
 
 from wrist_control.errors import InvalidValueError, RefusedError
-from wrist_control.operating.joystick import Held, Joystick
-from wrist_control.operating.maneuvers import BARKER_SPEED, MANEUVERS, STILL, Pilot, make_maneuver
-from wrist_control.resolving.newest import Newest
+from wrist_control.operating.joystick import Joystick, JoystickWithTimeout
+from wrist_control.operating.maneuvers import (
+    BARKER_SPEED,
+    MANEUVERS,
+    ZERO_RATES,
+    Pilot,
+    make_maneuver,
+)
+from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
 from wrist_control.ros.parameters import Spec, declare, watch
@@ -76,8 +82,8 @@ class Operator(Node):
         self._check(self._values)
         self._period = 1.0 / self._values['rate']
         self._pilot: Pilot | None = None
-        self._held: Held | None = None
-        self._times_lost: Newest[float] = Newest()
+        self._joystick: JoystickWithTimeout | None = None
+        self._times_lost: LatestMessage[float] = LatestMessage()
         watch(self, SPECS, self._check, self._values.update)
         self._diagnostics = Diagnostics(self, self._health)
         self._publisher = self.create_publisher(TwistStamped, 'cmd_vel', OUTPUT)
@@ -86,13 +92,13 @@ class Operator(Node):
 
     def _take_up(self, maneuver: str) -> None:
         if maneuver == 'joystick':
-            self._held = Held(self._joystick(), self._values['joy_timeout'])
+            self._joystick = JoystickWithTimeout(self._mapping(), self._values['joy_timeout'])
             self.create_subscription(Joy, 'joy', self._on_joy, NEWEST)
         elif maneuver != 'constant':
             self._pilot = Pilot(make_maneuver(maneuver, self._values['speed']), self._period)
             self.create_subscription(WristStatus, 'wrist_status', self._on_status, NEWEST)
 
-    def _joystick(self) -> Joystick:
+    def _mapping(self) -> Joystick:
         x, y, z = (round(number) for number in self._values['joy_axes'])
         p, q, r = self._values['joy_scales']
         button = round(self._values['enable_button'])
@@ -111,9 +117,9 @@ class Operator(Node):
             self._times_lost.put(convert.seconds(message.header.stamp), message.time_lost)
 
     def _on_joy(self, message: Joy) -> None:
-        assert self._held is not None
+        assert self._joystick is not None
         try:
-            self._held.take(message.axes, message.buttons, self._now())
+            self._joystick.take(message.axes, message.buttons, self._now())
         except RefusedError as error:
             self._diagnostics.refuse('joy', error)
 
@@ -128,13 +134,13 @@ class Operator(Node):
         self._publisher.publish(TwistStamped(header=header, twist=twist))
 
     def _rates(self, now: float) -> Sequence[float]:
-        if self._held is not None:
-            return self._held.rates(now)
+        if self._joystick is not None:
+            return self._joystick.rates(now)
         if self._pilot is None:
             rates: Sequence[float] = self._values['constant_rates']
             return rates
         if self._pilot.began is None and not self._is_heard():
-            return STILL
+            return ZERO_RATES
         flying = not self._pilot.done
         rates = self._pilot.rates(now, self._times_lost.at(now) or 0.0)
         if flying and self._pilot.done:
@@ -145,7 +151,7 @@ class Operator(Node):
         return bool(self._publisher.get_subscription_count() >= self._values['listeners'])
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
-        if self._held is not None:
+        if self._joystick is not None:
             return OK, 'Following the joystick.', {}
         if self._pilot is None:
             return OK, f'Publishing constant rates {self._values["constant_rates"]}.', {}

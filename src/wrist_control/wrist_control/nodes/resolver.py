@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from functools import partial
 from types import SimpleNamespace
 from typing import Any
@@ -16,9 +17,9 @@ from std_srvs.srv import SetBool, Trigger
 from wrist_control.errors import RefusedError, WristError
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
-from wrist_control.resolving.commands import accept
+from wrist_control.resolving.commands import CommandPolicy, ReceivedTwist
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import Outcome, Supervisor
+from wrist_control.resolving.supervisor import PeriodResult, Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
 from wrist_control.ros.parameters import declare, watch
@@ -59,11 +60,11 @@ class Resolver(Node):
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
-        self._outcome = self._supervisor.tick(0.0, 0.0)
+        self._result = self._supervisor.tick(stamp_time=0.0, receipt_time=0.0)
         self._warned_unstamped = False
-        self._ages = Clock(clock_type=ClockType.STEADY_TIME)
+        self._receipt_clock = Clock(clock_type=ClockType.STEADY_TIME)
         if self.get_parameter('use_sim_time').value:
-            self._ages = self.get_clock()
+            self._receipt_clock = self.get_clock()
         watch(self, wanted, self._check, self._apply)
         self._diagnostics = Diagnostics(self, self._health)
         self._wrong_types = WrongTypes(self, TYPES)
@@ -88,16 +89,16 @@ class Resolver(Node):
         self._take('cmd_vel_unstamped', message, '', None)
 
     def _take(self, topic: str, twist: Twist, frame: str, stamp: float | None) -> None:
+        policy = CommandPolicy(
+            self._values['command_timeout'],
+            self._values['hand_frame'],
+            self._values['forearm_frame'],
+        )
         try:
-            command = accept(
-                convert.twist_values(twist),
-                frame,
-                stamp,
-                self._seconds(self.get_clock()),
-                self._seconds(self._ages),
-                self._supervisor.settings.command_timeout,
-                self._values['hand_frame'],
-                self._values['forearm_frame'],
+            command = policy.accept(
+                ReceivedTwist(convert.twist_values(twist), frame, stamp),
+                stamp_time=self._seconds(self.get_clock()),
+                receipt_time=self._seconds(self._receipt_clock),
             )
         except RefusedError as error:
             self._diagnostics.refuse(topic, error)
@@ -108,30 +109,36 @@ class Resolver(Node):
         prefix = self._values['joint_prefix']
         names = [name.removeprefix(prefix) for name in message.name]
         try:
-            self._supervisor.take_measured(names, message.position, self._seconds(self._ages))
+            self._supervisor.take_measured(
+                names, message.position, self._seconds(self._receipt_clock)
+            )
         except (RefusedError, WristError) as error:
             refused = error if isinstance(error, RefusedError) else RefusedError('bad', str(error))
             self._diagnostics.refuse('joint_states', refused)
 
     def _on_enable(self, request: SetBool.Request, answer: SetBool.Response) -> Any:
-        answer.message = self._supervisor.enable(request.data)
-        answer.success = True
-        return answer
+        return self._answer(answer, partial(self._supervisor.enable, request.data))
 
     def _on_reset(self, _: Trigger.Request, answer: Trigger.Response) -> Any:
+        return self._answer(answer, self._supervisor.reset)
+
+    @staticmethod
+    def _answer(answer: Any, ask: Callable[[], str]) -> Any:
+        """Fill in the answer of a service: what was done, or why it was not."""
         try:
-            answer.message = self._supervisor.reset()
+            answer.message = ask()
             answer.success = True
         except WristError as error:
-            answer.message = str(error)
+            answer.message, answer.success = str(error), False
         return answer
 
     def _tick(self) -> None:
         now = self.get_clock().now()
-        self._outcome = self._supervisor.tick(
-            convert.seconds_of(now.nanoseconds), self._seconds(self._ages)
+        self._result = self._supervisor.tick(
+            stamp_time=convert.seconds_of(now.nanoseconds),
+            receipt_time=self._seconds(self._receipt_clock),
         )
-        self._outputs.publish(self._outcome, now.to_msg())
+        self._outputs.publish(self._result, now.to_msg())
 
     def _check(self, changed: dict[str, Any]) -> None:
         limited(self._supervisor.wrist, {**self._values, **changed})
@@ -142,18 +149,18 @@ class Resolver(Node):
         self._supervisor.settings = settings(self._supervisor.wrist, self._values)
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
-        outcome: Outcome = self._outcome
+        result: PeriodResult = self._result
         values = {
-            'state': outcome.wrist_state.name,
-            'scale factor': f'{outcome.made.scale_factor:.4f}',
-            'time lost': f'{outcome.made.state.time_lost:.4f} s',
-            'margin': f'{outcome.made.margin:.4f}',
+            'state': result.wrist_state.name,
+            'scale factor': f'{result.step.scale_factor:.4f}',
+            'time lost': f'{result.step.state.time_lost:.4f} s',
+            'margin': f'{result.step.margin:.4f}',
         }
-        level = LEVELS.get(outcome.wrist_state, OK)
+        level = LEVELS.get(result.wrist_state, OK)
         for (publisher, topic), sentence in self._wrong_types.found.items():
             values[f'{publisher} on {topic}'] = sentence
             level = max(level, WARN)
-        return level, outcome.message, values
+        return level, result.message, values
 
     @staticmethod
     def _seconds(clock: Clock) -> float:

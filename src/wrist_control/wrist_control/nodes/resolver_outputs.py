@@ -13,7 +13,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 from visualization_msgs.msg import MarkerArray
 
-from wrist_control.resolving.supervisor import Outcome
+from wrist_control.resolving.supervisor import PeriodResult
 from wrist_control.ros import convert
 from wrist_control.ros.markers import wrist_markers
 from wrist_control.ros.qos import OUTPUT
@@ -47,46 +47,48 @@ class Outputs:
         self._status = node.create_publisher(WristStatus, 'wrist_status', OUTPUT)
         self._markers = node.create_publisher(MarkerArray, 'markers', OUTPUT)
 
-    def publish(self, outcome: Outcome, stamp: Time) -> None:
+    def publish(self, result: PeriodResult, stamp: Time) -> None:
         """Publish what one step did."""
         header = Header(stamp=stamp, frame_id=self._forearm)
-        made = outcome.made
-        if outcome.moving_allowed:
+        taken = result.step
+        if result.moving_allowed:
             self._command.publish(
-                convert.joint_message(header, self._names, made.state.positions, made.joint_rates)
+                convert.joint_message(
+                    header, self._names, taken.state.positions, taken.joint_rates
+                )
             )
-        if outcome.moving_allowed or self._was_allowed:
+        if result.moving_allowed or self._was_allowed:
             # Velocity controllers keep the last value: the last one before silence must be zero.
-            self._velocity.publish(Float64MultiArray(data=array.array('d', made.joint_rates)))
-        self._was_allowed = outcome.moving_allowed
-        self._pose.publish(convert.pose_message(header, made.state.pose))
-        status = self._status_message(outcome, stamp)
+            self._velocity.publish(Float64MultiArray(data=array.array('d', taken.joint_rates)))
+        self._was_allowed = result.moving_allowed
+        self._pose.publish(convert.pose_message(header, taken.state.pose))
+        status = self._status_message(result, stamp)
         self._status.publish(status)
         if self._count % self._every == 0:
             lost = status.lost_axis
             self._markers.publish(
                 wrist_markers(
                     header,
-                    made.state.pose,
+                    taken.state.pose,
                     (lost.x, lost.y, lost.z),
-                    made.margin,
-                    outcome.message,
+                    taken.margin,
+                    result.message,
                 )
             )
         self._count += 1
 
-    def _status_message(self, outcome: Outcome, stamp: Time) -> WristStatus:
-        made = outcome.made
-        x, y, z = self._wrist.lost_axis(made.state.positions)
+    def _status_message(self, result: PeriodResult, stamp: Time) -> WristStatus:
+        taken = result.step
+        x, y, z = self._wrist.lost_axis(taken.state.positions)
         return WristStatus(
             header=Header(stamp=stamp, frame_id=self._hand),
-            state=int(outcome.wrist_state),
-            scale_factor=made.scale_factor,
-            time_lost=made.state.time_lost,
-            margin=made.margin,
+            state=int(result.wrist_state),
+            scale_factor=taken.scale_factor,
+            time_lost=taken.state.time_lost,
+            margin=taken.margin,
             lost_axis=Vector3(x=x, y=y, z=z),
-            commanded=convert.twist_message(outcome.commanded),
-            achieved=convert.twist_message(made.achieved),
+            commanded=convert.twist_message(result.commanded),
+            achieved=convert.twist_message(taken.achieved),
             limits=[
                 LimitAtWork(
                     joint=limit.joint,
@@ -94,7 +96,7 @@ class Outputs:
                     asked=limit.asked,
                     allowed=limit.allowed,
                 )
-                for limit in made.limits
+                for limit in taken.limits
             ],
-            message=outcome.message,
+            message=result.message,
         )

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from wrist_control.resolving.supervisor import Settings
+from wrist_control.resolving.supervisor import SupervisorSettings
 from wrist_control.ros.parameters import Spec
 from wrist_control.wrists import Wrist, wrist_class
 
@@ -17,14 +17,11 @@ CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
 def mechanism_specs(wrist_name: str) -> list[Spec]:
     """Return the parameters that describe the geometry of one wrist."""
     dimensions = [
-        Spec(
-            name, default, facts['description'], facts['unit'], facts['minimum'], facts['maximum']
-        )
-        for name, (default, facts) in wrist_class(wrist_name).dimensions().items()
+        Spec(name, *facts) for name, facts in wrist_class(wrist_name).dimensions().items()
     ]
     points = [
-        Spec(name, [], f'{says}; not given when empty', 'm')
-        for name, says in wrist_class(wrist_name).point_lists().items()
+        Spec(name, [], f'{points.description}; not given when empty', 'm')
+        for name, points in wrist_class(wrist_name).point_lists().items()
     ]
     return dimensions + points
 
@@ -108,9 +105,9 @@ def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
     )
 
 
-def settings(wrist: Wrist, values: Mapping[str, Any]) -> Settings:
+def settings(wrist: Wrist, values: Mapping[str, Any]) -> SupervisorSettings:
     """Return what the supervisor is told of the parameters."""
-    return Settings(
+    return SupervisorSettings(
         dt=1.0 / values['rate'],
         command_timeout=values['command_timeout'],
         stop_time=values['stop_time'],

@@ -18,7 +18,7 @@ from wrist_control.nodes.resolver_settings import mechanism, mechanism_specs
 from wrist_control.resolving.platform_observer import (
     Observed,
     Observer,
-    Settings,
+    ObserverSettings,
     in_metres_and_radians,
 )
 from wrist_control.ros import convert
@@ -82,7 +82,7 @@ class StewartForwardKinematics(Node):
         self._wrist = self._platform()
         self._observer = Observer(
             self._wrist,
-            Settings(values['length_noise'], values['jump_limit'], values['gap_limit']),
+            ObserverSettings(values['length_noise'], values['jump_limit'], values['gap_limit']),
         )
         self._status = ForwardKinematicsStatus(
             status=ForwardKinematicsStatus.NO_DATA, error_bound=UNKNOWN, message=NO_DATA

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from wrist_control.errors import RefusedError
-from wrist_control.operating.maneuvers import STILL
+from wrist_control.operating.maneuvers import ZERO_RATES
 from wrist_control.rotations import Vector
 
 
@@ -42,7 +42,7 @@ class Joystick(NamedTuple):
         if not all(math.isfinite(value) for value in asked):
             raise RefusedError('not finite', f'Refused a joystick that says {asked}.')
         if self.enable_button >= 0 and not buttons[self.enable_button]:
-            return STILL
+            return ZERO_RATES
         p, q, r = (
             scale * self._deflection(value)
             for scale, value in zip(self.scales, asked, strict=True)
@@ -54,7 +54,7 @@ class Joystick(NamedTuple):
         return beyond if value > 0.0 else -beyond
 
 
-class Held:
+class JoystickWithTimeout:
     """What the joystick asked for last, until it falls silent.
 
     Attributes:
@@ -66,25 +66,25 @@ class Held:
         """Start with nothing asked for."""
         self.joystick = joystick
         self.timeout = timeout
-        self._rates: Vector = STILL
+        self._rates: Vector = ZERO_RATES
         self._heard: float | None = None
 
-    def take(self, axes: Sequence[float], buttons: Sequence[int], now: float) -> None:
+    def take(self, axes: Sequence[float], buttons: Sequence[int], receipt_time: float) -> None:
         """Hear a joystick message.
 
         Args:
             axes: Deflections, -1 to 1.
             buttons: 1 where pressed.
-            now: s.
+            receipt_time: Now, s.
 
         Raises:
             RefusedError: As `Joystick.rates`; it counts as released.
         """
-        self._rates, self._heard = STILL, now
+        self._rates, self._heard = ZERO_RATES, receipt_time
         self._rates = self.joystick.rates(axes, buttons)
 
-    def rates(self, now: float) -> Vector:
-        """Return p, q, r, rad/s; zero when the joystick has been silent for too long."""
-        if self._heard is None or now - self._heard > self.timeout:
-            return STILL
+    def rates(self, receipt_time: float) -> Vector:
+        """Return p, q, r now, rad/s; zero when the joystick has been silent for too long."""
+        if self._heard is None or receipt_time - self._heard > self.timeout:
+            return ZERO_RATES
         return self._rates

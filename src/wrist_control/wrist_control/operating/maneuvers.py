@@ -16,7 +16,7 @@ BARKER_SPEED = math.radians(32.0)
 QUARTER_TURN = 0.5 * math.pi
 # Times closer than this are the same, s: round-off in a sum of steps must not add a step.
 EARLY = 1e-9
-STILL: Vector = (0.0, 0.0, 0.0)
+ZERO_RATES: Vector = (0.0, 0.0, 0.0)
 
 
 class Segment(NamedTuple):
@@ -75,7 +75,7 @@ class Maneuver:
                 share = min(1.0, left / dt) if self.waits and left < dt - EARLY else 1.0
                 p, q, r = segment.rates
                 return Order((share * p, share * q, share * r), share)
-        return Order(STILL, 1.0)
+        return Order(ZERO_RATES, 1.0)
 
 
 def turn(axis: int, angle: float, speed: float) -> Segment:
@@ -112,7 +112,7 @@ def roll_at_full_bend(speed: float) -> Maneuver:
 
 def hold(speed: float) -> Maneuver:
     """Ask for nothing for two seconds."""
-    return Maneuver('hold', (Segment(STILL, 2.0),))
+    return Maneuver('hold', (Segment(ZERO_RATES, 2.0),))
 
 
 def stick(speed: float, seed: int = 1, duration: float = 60.0) -> Maneuver:

@@ -1,9 +1,12 @@
-"""Which commands count: a gate for stamps, ages, frames and numbers. No clock of its own."""
+"""Which commands count: a gate for stamps, ages, frames and numbers. No clock of its own.
+
+Two clocks are told apart everywhere: *stamp time* is the clock that messages are stamped by, and
+*receipt time* is the one that ages are judged by, which never jumps.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import NamedTuple
 
 from wrist_control.errors import RefusedError
@@ -13,70 +16,91 @@ from wrist_control.rotations import Quaternion, to_hand
 CLOCK_SKEW = 0.05
 
 
+class ReceivedTwist(NamedTuple):
+    """A command as it came.
+
+    Attributes:
+        twist: (vx, vy, vz, p, q, r), rad/s and m/s.
+        frame: The frame it says it is in; empty means the hand's.
+        stamp: Its stamp, s of stamp time; None when it has none and so counts as just made.
+    """
+
+    twist: tuple[float, ...]
+    frame: str = ''
+    stamp: float | None = None
+
+
 class Command(NamedTuple):
     """A command that counts.
 
     Attributes:
         twist: (vx, vy, vz, p, q, r), rad/s and m/s.
         in_forearm: True when the twist is given in forearm axes, not in hand axes.
-        stamp: Its stamp, s; None when it has none.
-        received: When it came, s on the clock that ages are judged by.
+        stamp: Its stamp, s of stamp time; None when it has none.
+        receipt: When it came, s of receipt time.
     """
 
     twist: tuple[float, ...]
     in_forearm: bool
     stamp: float | None
-    received: float
+    receipt: float
 
 
-def accept(
-    twist: Sequence[float],
-    frame: str,
-    stamp: float | None,
-    now: float,
-    received: float,
-    timeout: float,
-    hand_frame: str,
-    forearm_frame: str,
-) -> Command:
-    """Return a command that counts.
+class CommandPolicy(NamedTuple):
+    """Which commands count.
 
-    Args:
-        twist: (vx, vy, vz, p, q, r) as it came.
-        frame: The frame it says it is in; empty means the hand's.
-        stamp: Its stamp, s; None when it has none and so counts as just made.
-        now: The time on the clock of the stamps, s.
-        received: When it came, s on the clock that ages are judged by.
+    Attributes:
         timeout: Oldest age that still counts, s.
         hand_frame: Name of the hand frame.
         forearm_frame: Name of the forearm frame.
-
-    Raises:
-        RefusedError: The command does not count; the sentence says why.
     """
-    if not all(math.isfinite(x) for x in twist):
-        raise RefusedError(
-            'not finite', f'Refused a command that is not finite: {tuple(twist)}; send numbers.'
-        )
-    if frame not in ('', hand_frame, forearm_frame):
-        raise RefusedError(
-            'unknown frame',
-            f'Refused a command in frame {frame!r}; use {hand_frame!r}, {forearm_frame!r} or '
-            'an empty frame_id (the hand).',
-        )
-    age = 0.0 if stamp is None else now - stamp
-    if age < -CLOCK_SKEW:
-        raise RefusedError(
-            'stamp in the future',
-            f'Refused a command stamped {-age:.3f} s in the future; synchronise the clocks.',
-        )
-    if age > timeout:
-        raise RefusedError(
-            'too old',
-            f'Refused a command {age:.3f} s old; at most {timeout:g} s (command_timeout) counts.',
-        )
-    in_forearm = frame == forearm_frame and frame not in ('', hand_frame)
-    return Command(tuple(twist), in_forearm, stamp, received)
+
+    timeout: float
+    hand_frame: str = 'hand'
+    forearm_frame: str = 'forearm'
+
+    def accept(
+        self, received: ReceivedTwist, *, stamp_time: float, receipt_time: float
+    ) -> Command:
+        """Return a command that counts.
+
+        Args:
+            received: The command as it came.
+            stamp_time: Now, s.
+            receipt_time: Now, s.
+
+        Raises:
+            RefusedError: The command does not count; the sentence says why.
+        """
+        twist, frame, stamp = received
+        if not all(math.isfinite(x) for x in twist):
+            raise RefusedError(
+                'not finite',
+                f'Refused a command that is not finite: {tuple(twist)}; send numbers.',
+            )
+        if frame not in ('', self.hand_frame, self.forearm_frame):
+            raise RefusedError(
+                'unknown frame',
+                f'Refused a command in frame {frame!r}; use {self.hand_frame!r}, '
+                f'{self.forearm_frame!r} or an empty frame_id (the hand).',
+            )
+        if stamp is not None:
+            self._check_age(stamp_time - stamp)
+        in_forearm = frame == self.forearm_frame and frame not in ('', self.hand_frame)
+        return Command(tuple(twist), in_forearm, stamp, receipt_time)
+
+    def _check_age(self, age: float) -> None:
+        if age < -CLOCK_SKEW:
+            raise RefusedError(
+                'stamp in the future',
+                f'Refused a command stamped {-age:.3f} s in the future; synchronise the clocks.',
+            )
+        if age > self.timeout:
+            raise RefusedError(
+                'too old',
+                f'Refused a command {age:.3f} s old; at most {self.timeout:g} s '
+                '(command_timeout) counts.',
+            )
 
 
 def hand_twist(command: Command, orientation: Quaternion) -> tuple[float, ...]:

@@ -7,31 +7,32 @@ from collections.abc import Sequence
 
 from wrist_control.resolving.limits import joint_overruns, smallest_share
 from wrist_control.resolving.step import State
-from wrist_control.wrists.wrist import Joint, Wrist
+from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.wrist import Wrist
 
 # Speeds for joints without a rate limit of their own: rad/s, m/s.
 CALM = {'revolute': 0.5, 'prismatic': 0.02}
 
 
-def step_towards(wrist: Wrist, state: State, aim: Sequence[float], dt: float) -> State:
+def step_towards(wrist: Wrist, state: State, goal: Sequence[float], dt: float) -> State:
     """Return the state after one step straight towards joint positions, all arriving together.
 
     Args:
         wrist: The mechanism, with the limits to keep.
         state: Where it is.
-        aim: Joint positions to go to, rad or m.
+        goal: Joint positions to go to, rad or m.
         dt: Duration of the step, s.
     """
     joints = [_calm(joint) for joint in wrist.joints]
-    share = smallest_share(joint_overruns(joints, state.positions, tuple(aim), dt))
-    way = zip(state.positions, aim, strict=True)
-    positions = wrist.assembled([old + share * (new - old) for old, new in way], state.pose)
+    share = smallest_share(joint_overruns(joints, state.positions, tuple(goal), dt))
+    way = zip(state.positions, goal, strict=True)
+    positions = wrist.resolve_assembly([old + share * (new - old) for old, new in way], state.pose)
     return State(positions, wrist.forward(positions), (), state.time_lost)
 
 
-def arrived(state: State, aim: Sequence[float]) -> bool:
+def has_reached(state: State, goal: Sequence[float]) -> bool:
     """Return whether the joints are where they should be."""
-    return max(abs(old - new) for old, new in zip(state.positions, aim, strict=True)) < 1e-9
+    return max(abs(old - new) for old, new in zip(state.positions, goal, strict=True)) < 1e-9
 
 
 def _calm(joint: Joint) -> Joint:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from enum import IntEnum
 from typing import NamedTuple
 
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist
+from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist
 
 # A limit counts as kept within this, rad or m: round-off, not motion. Relative for rates.
 TOLERANCE = 1e-9
@@ -31,7 +32,7 @@ class LimitAtWork(NamedTuple):
     Attributes:
         joint: Name of the joint, or of the clearance for a limit of the whole wrist.
         kind: Which kind of limit.
-        asked: What the command asked for: a rate, a position, or the room left.
+        asked: What the command asked for: a rate, a position, or what is left of a clearance.
         allowed: What the limit allows of the same.
         share: The share of the step, 0 to 1, that keeps this limit.
     """
@@ -43,7 +44,7 @@ class LimitAtWork(NamedTuple):
     share: float
 
 
-def rate_overruns(joints: Sequence[Joint], rates: Positions) -> list[LimitAtWork]:
+def rate_overruns(joints: Sequence[Joint], rates: Rates) -> list[LimitAtWork]:
     """Return the joints that would have to move faster than they may."""
     return [
         _rate_at_work(name, rate, limit)
@@ -78,12 +79,12 @@ def clearance_overruns(
     """Return the limits of the whole wrist that would be crossed, or approached too fast."""
     found = []
     for old, new in zip(before, after, strict=True):
-        room = max(old.room, 0.0)
-        kept = room * max(0.0, 1.0 - dt / old.horizon) if old.horizon > 0.0 else 0.0
-        if new.room < min(kept - TOLERANCE, old.room - ROUNDOFF):
-            bound = min(kept, old.room)
-            share = (old.room - bound) / (old.room - new.room)
-            found.append(LimitAtWork(old.name, LimitKind.WORKSPACE, new.room, bound, share))
+        remaining = max(old.remaining, 0.0)
+        kept = remaining * max(0.0, 1.0 - dt / old.horizon) if old.horizon > 0.0 else 0.0
+        if new.remaining < min(kept - TOLERANCE, old.remaining - ROUNDOFF):
+            bound = min(kept, old.remaining)
+            share = (old.remaining - bound) / (old.remaining - new.remaining)
+            found.append(LimitAtWork(old.name, LimitKind.WORKSPACE, new.remaining, bound, share))
     return found
 
 

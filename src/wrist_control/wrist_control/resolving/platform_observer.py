@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wrist_control.errors import InvalidValueError, RefusedError
+from wrist_control.resolving.joint_order import in_joint_order
 from wrist_control.resolving.limits import TOLERANCE
 from wrist_control.rotations import Pose
 from wrist_control.stewart.forward_kinematics import Solution, Status
@@ -16,7 +17,6 @@ from wrist_control.stewart.measurement import (
     check_jump,
     check_lengths,
     check_possible,
-    in_order,
     platform_twist,
     pose_covariance,
 )
@@ -35,7 +35,7 @@ MEANINGS = {
 }
 
 
-class Settings(NamedTuple):
+class ObserverSettings(NamedTuple):
     """What an observer is told once.
 
     Attributes:
@@ -82,7 +82,7 @@ class Observer:
     meant, lengths cannot say. That the platform is on home's side of lock is taken for granted.
     """
 
-    def __init__(self, wrist: Stewart, settings: Settings) -> None:
+    def __init__(self, wrist: Stewart, settings: ObserverSettings) -> None:
         """Begin without a pose.
 
         Args:
@@ -129,7 +129,7 @@ class Observer:
         if solution.pose is None or solution.status != Status.CONVERGED:
             return Observed(solution, None, None, message)
         self._good = Good(lengths, solution.pose, stamp)
-        lines = self._wrist.held(solution.pose).lines
+        lines = self._wrist.assembly_at(solution.pose).lines
         noise = self._settings.length_noise
         return Observed(solution, pose_covariance(lines, solution.pose, noise), None, message)
 
@@ -148,7 +148,7 @@ class Observer:
         """
         if observed.covariance is None or observed.solution.pose is None or not len(velocities):
             return observed
-        rates = _refusing('wrong length', in_order, self._names, names, velocities)
+        rates = in_joint_order(self._names, names, velocities)
         if all(math.isnan(rate) for rate in rates):
             return observed
         for name, rate in zip(self._names, rates, strict=True):
@@ -158,12 +158,11 @@ class Observer:
                     f'The velocity of {name} is {rate:g} m/s; valid is up to jump_limit, '
                     f'{self._settings.jump_limit:g} m/s.',
                 )
-        lines = self._wrist.held(observed.solution.pose).lines
+        lines = self._wrist.assembly_at(observed.solution.pose).lines
         return observed._replace(twist=platform_twist(lines, rates))
 
     def _checked(self, names: Sequence[str], positions: Sequence[float]) -> tuple[float, ...]:
-        reason = 'wrong joint names' if len(names) == len(positions) else 'wrong length'
-        lengths: tuple[float, ...] = _refusing(reason, in_order, self._names, names, positions)
+        lengths = in_joint_order(self._names, names, positions)
         finite = all(math.isfinite(x) for x in lengths)
         _refusing('impossible length' if finite else 'not finite', check_lengths, lengths)
         for joint, length in zip(self._wrist.joints, lengths, strict=True):

@@ -26,42 +26,42 @@ class WristState(IntEnum):
     FAULT = 7
 
 
-def state_of(made: Step, commanded: Sequence[float]) -> WristState:
+def state_of(step: Step, commanded: Sequence[float]) -> WristState:
     """Return the state that a step shows."""
     if not any(commanded):
         return WristState.IDLE
-    if made.singular:
+    if step.singular:
         return WristState.SINGULAR
-    if any(limit.kind != LimitKind.RATE for limit in made.limits):
+    if any(limit.kind != LimitKind.RATE for limit in step.limits):
         return WristState.LIMITED
-    return WristState.SCALED if made.scale_factor < 1.0 else WristState.TRACKING
+    return WristState.SCALED if step.scale_factor < 1.0 else WristState.TRACKING
 
 
-def sentence(wrist: Wrist, made: Step, commanded: Sequence[float]) -> str:
+def sentence(wrist: Wrist, step: Step, commanded: Sequence[float]) -> str:
     """Return what is happening and what to do, in one sentence."""
-    state = state_of(made, commanded)
+    state = state_of(step, commanded)
     if state == WristState.IDLE:
         return 'Ready: no motion is commanded.'
     if state == WristState.SINGULAR:
-        return _singular(wrist, made)
+        return _singular(wrist, step)
     if state == WristState.LIMITED:
-        return _limited(wrist, made)
+        return _limited(wrist, step)
     if state == WristState.SCALED:
-        return _scaled(wrist, made.limits, made.scale_factor)
-    return _tracking(made, commanded)
+        return _scaled(wrist, step.limits, step.scale_factor)
+    return _tracking(step, commanded)
 
 
-def _singular(wrist: Wrist, made: Step) -> str:
-    x, y, z = wrist.lost_axis(made.state.positions)
+def _singular(wrist: Wrist, step: Step) -> str:
+    x, y, z = wrist.lost_axis(step.state.positions)
     return (
         f'In lock: the hand cannot turn about its axis ({x:.2f}, {y:.2f}, {z:.2f}); the joints '
-        f'are turning into place at {made.scale_factor:.0%} of the command: keep on, or reverse '
+        f'are turning into place at {step.scale_factor:.0%} of the command: keep on, or reverse '
         'to back out.'
     )
 
 
-def _limited(wrist: Wrist, made: Step) -> str:
-    limit = next(one for one in made.limits if one.kind != LimitKind.RATE)
+def _limited(wrist: Wrist, step: Step) -> str:
+    limit = next(one for one in step.limits if one.kind != LimitKind.RATE)
     if limit.kind == LimitKind.POSITION:
         where = f'{limit.joint} is at its limit of {limit.allowed:.3f} {_unit(wrist, limit)}'
     else:
@@ -78,9 +78,9 @@ def _scaled(wrist: Wrist, limits: Sequence[LimitAtWork], factor: float) -> str:
     )
 
 
-def _tracking(made: Step, commanded: Sequence[float]) -> str:
-    done = made.achieved[-len(commanded) :]
-    missing = [asked - got for asked, got in zip(commanded, done, strict=True)]
+def _tracking(step: Step, commanded: Sequence[float]) -> str:
+    achieved = step.achieved[-len(commanded) :]
+    missing = [asked - got for asked, got in zip(commanded, achieved, strict=True)]
     if max(abs(x) for x in missing) < NOTICEABLE:
         return 'Following the command.'
     return (

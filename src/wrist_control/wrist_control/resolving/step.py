@@ -18,7 +18,7 @@ from wrist_control.resolving.limits import (
     smallest_share,
 )
 from wrist_control.rotations import Pose, rates_between, to_hand
-from wrist_control.wrists.wrist import Memory, Positions, Wrist
+from wrist_control.wrists.wrist import Configuration, Positions, Rates, SteeringState, Wrist
 
 # Barker's ε0: below this margin instantaneous rates say nothing and average rates are used.
 SINGULAR_MARGIN = 0.001
@@ -31,22 +31,23 @@ SMALLEST_SHARE = 0.1
 SMALLEST_FACTOR = 1e-6
 
 Twist = tuple[float, float, float, float, float, float]
-STILL: Twist = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+ZERO_TWIST: Twist = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 class State(NamedTuple):
     """All that one step hands to the next.
 
     Attributes:
-        positions: Joint positions, rad or m.
+        positions: Joint positions, rad or m; a `Configuration` of a wrist that needs the pose to
+            tell its assemblies apart.
         pose: The hand's pose in the forearm frame.
-        memory: The wrist's own, from `Wrist.steer`.
+        steering_state: The wrist's own, from `Wrist.choose_branch_reference`.
         time_lost: The integral of 1 − F so far, s.
     """
 
     positions: Positions
     pose: Pose
-    memory: Memory = ()
+    steering_state: SteeringState = ()
     time_lost: float = 0.0
 
 
@@ -64,7 +65,7 @@ class Step(NamedTuple):
     """
 
     state: State
-    joint_rates: Positions
+    joint_rates: Rates
     scale_factor: float
     margin: float
     singular: bool
@@ -84,7 +85,7 @@ def start(wrist: Wrist, positions: Sequence[float] | None = None) -> State:
             limits, a mechanism outside its workspace, or a start at lock.
     """
     names = [joint.name for joint in wrist.joints]
-    chosen = wrist.home if positions is None else tuple(float(x) for x in positions)
+    chosen = wrist.home if positions is None else _settled(positions)
     if len(chosen) != len(names):
         raise InvalidValueError(
             f'initial_positions has {len(chosen)} values; give one for each of {", ".join(names)}.'
@@ -97,25 +98,33 @@ def start(wrist: Wrist, positions: Sequence[float] | None = None) -> State:
             )
     try:
         pose = wrist.forward(chosen)
-        crossed = [limit.name for limit in wrist.clearances(chosen) if limit.room < -1e-9]
+        crossed = [limit.name for limit in wrist.clearances(chosen) if limit.remaining < -1e-9]
     except UnreachableError as error:
-        raise InvalidValueError(f'initial_positions {chosen} cannot be taken: {error}') from error
+        raise InvalidValueError(f'{_start(chosen)} cannot be taken: {error}') from error
     if crossed:
         raise InvalidValueError(
-            f'initial_positions {chosen} lie outside: {", ".join(crossed)}; start further inside.'
+            f'{_start(chosen)} lie outside: {", ".join(crossed)}; start further inside.'
         )
     if wrist.margin(chosen) < SINGULAR_MARGIN:
         raise InvalidValueError(
-            f'initial_positions {chosen} are at lock (margin {wrist.margin(chosen):.2g}); start '
+            f'{_start(chosen)} are at lock (margin {wrist.margin(chosen):.2g}); start '
             f'where the margin is at least {SINGULAR_MARGIN:g}.'
         )
     return State(chosen, pose)
 
 
+def _settled(positions: Sequence[float]) -> Positions:
+    return positions if isinstance(positions, Configuration) else tuple(map(float, positions))
+
+
+def _start(positions: Positions) -> str:
+    return f'initial_positions {tuple(positions)}'
+
+
 def resting(wrist: Wrist, state: State) -> Step:
     """Return the step in which nothing moves."""
     margin = wrist.margin(state.positions)
-    return Step(state, (0.0,) * len(state.positions), 1.0, margin, False, (), STILL)
+    return Step(state, (0.0,) * len(state.positions), 1.0, margin, False, (), ZERO_TWIST)
 
 
 def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
@@ -149,20 +158,20 @@ def _step_along_command(
     smallest = SMALLEST_FACTOR * factor
     for _ in range(MOST_REDUCTIONS):
         try:
-            positions, memory = _led_to(wrist, state, twist, factor, dt)
+            positions, steering_state = _target_positions(wrist, state, twist, factor, dt)
         except UnreachableError as error:
             limits = [_edge(error)]
             factor *= 0.5
             continue
         found = overruns(wrist, state.positions, positions, dt)
         if not found:
-            after = State(positions, wrist.forward(positions), memory, state.time_lost)
-            return _made(state, after, dt, factor, margin, False, limits)
+            after = State(positions, wrist.forward(positions), steering_state, state.time_lost)
+            return _step_between(state, after, dt, factor, margin, False, limits)
         limits = _joined(limits, found)
         factor *= max(SMALLEST_SHARE, smallest_share(found))
         if factor < smallest:
             break
-    return _made(state, state, dt, 0.0, margin, False, limits)
+    return _step_between(state, state, dt, 0.0, margin, False, limits)
 
 
 def _step_through_lock(
@@ -170,10 +179,10 @@ def _step_through_lock(
 ) -> Step:
     """Scale the joints' way to where the command leads. [Barker1986], fig. 3(b)."""
     reach, limits = 1.0, []
-    aim, memory = state.positions, state.memory
+    goal, steering_state = state.positions, state.steering_state
     for _ in range(MOST_REDUCTIONS):
         try:
-            aim, memory = _led_to(wrist, state, twist, reach, dt)
+            goal, steering_state = _target_positions(wrist, state, twist, reach, dt)
             break
         except UnreachableError as error:
             limits = [_edge(error)]
@@ -181,29 +190,31 @@ def _step_through_lock(
     share = 1.0
     for _ in range(MOST_REDUCTIONS):
         positions = tuple(
-            old + share * (new - old) for old, new in zip(state.positions, aim, strict=True)
+            old + share * (new - old) for old, new in zip(state.positions, goal, strict=True)
         )
         found = overruns(wrist, state.positions, positions, dt)
         if not found:
-            after = State(positions, wrist.forward(positions), memory, state.time_lost)
-            return _made(state, after, dt, reach * share, margin, True, limits)
+            after = State(positions, wrist.forward(positions), steering_state, state.time_lost)
+            return _step_between(state, after, dt, reach * share, margin, True, limits)
         limits = _joined(limits, found)
         share *= smallest_share(found)
         if share == 0.0:
             break
-    return _made(state, state, dt, 0.0, margin, True, limits)
+    return _step_between(state, state, dt, 0.0, margin, True, limits)
 
 
-def _led_to(
+def _target_positions(
     wrist: Wrist, state: State, twist: Sequence[float], factor: float, dt: float
-) -> tuple[Positions, Memory]:
-    """Return the joint positions that the scaled command leads to, and the wrist's memory."""
-    near, memory = wrist.steer(state.positions, factor, dt, state.memory)
-    pose = wrist.advance(state.pose, [factor * x for x in twist], dt)
-    return wrist.inverse(pose, near), memory
+) -> tuple[Positions, SteeringState]:
+    """Return the joint positions that the scaled command leads to, and the steering state."""
+    near, steering_state = wrist.choose_branch_reference(
+        state.positions, factor, dt, state.steering_state
+    )
+    pose = wrist.target_pose(state.pose, [factor * x for x in twist], dt)
+    return wrist.inverse(pose, near), steering_state
 
 
-def _made(
+def _step_between(
     before: State,
     after: State,
     dt: float,
@@ -216,9 +227,11 @@ def _made(
         [(new - old) / dt for old, new in zip(before.positions, after.positions, strict=True)]
     )
     if not math.isfinite(sum(joint_rates)):
-        raise UnreachableError(f'The step from {before.positions} led nowhere; nothing moves.')
+        raise UnreachableError(
+            f'The step from {tuple(before.positions)} led nowhere; nothing moves.', 'no way on'
+        )
     lost = before.time_lost + (1.0 - factor) * dt
-    state = State(after.positions, after.pose, after.memory, lost)
+    state = State(after.positions, after.pose, after.steering_state, lost)
     achieved = _twist_between(before.pose, after.pose, dt)
     return Step(state, joint_rates, factor, margin, singular, tuple(limits), achieved)
 
@@ -240,4 +253,4 @@ def _joined(limits: list[LimitAtWork], found: list[LimitAtWork]) -> list[LimitAt
 
 
 def _edge(error: UnreachableError) -> LimitAtWork:
-    return LimitAtWork(str(error), LimitKind.WORKSPACE, 0.0, 0.0, 0.0)
+    return LimitAtWork(error.limit, LimitKind.WORKSPACE, 0.0, 0.0, 0.0)

@@ -1,6 +1,7 @@
 """Everything between two steps: who is in charge, what is stale, what is wrong. No ROS, no clock.
 
-The supervisor is told what arrives and when, and is asked once per period what to do.
+The supervisor is told what arrives and when, and is asked once per period what to do. It knows
+two clocks, as `commands` does: stamp time and receipt time.
 """
 
 from __future__ import annotations
@@ -12,10 +13,11 @@ from typing import NamedTuple
 
 from wrist_control.errors import InvalidValueError, RefusedError, WristError
 from wrist_control.resolving.commands import Command, freshness, hand_twist
-from wrist_control.resolving.homing import arrived, step_towards
-from wrist_control.resolving.newest import Newest
+from wrist_control.resolving.homing import has_reached, step_towards
+from wrist_control.resolving.joint_order import in_joint_order
+from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.report import WristState, sentence, state_of
-from wrist_control.resolving.step import STILL, State, Step, Twist, resting, start, step
+from wrist_control.resolving.step import ZERO_TWIST, State, Step, Twist, resting, start, step
 from wrist_control.wrists.wrist import Positions, Wrist
 
 # A joint may lag this far behind its command, rad and m, for this long, s.
@@ -23,7 +25,7 @@ LAG = {'revolute': 0.35, 'prismatic': 0.02}
 LAG_TIME = 0.5
 
 
-class Settings(NamedTuple):
+class SupervisorSettings(NamedTuple):
     """What a supervisor is told once.
 
     Attributes:
@@ -39,19 +41,19 @@ class Settings(NamedTuple):
     initial_positions: Positions
 
 
-class Outcome(NamedTuple):
+class PeriodResult(NamedTuple):
     """What one period brought.
 
     Attributes:
         wrist_state: For the operator's status.
-        made: The step that was made.
+        step: The step that was made.
         commanded: The twist that was followed, hand axes, (vx, vy, vz, p, q, r).
         message: What is happening and what to do, one sentence.
         moving_allowed: False while nothing may be sent to the joints.
     """
 
     wrist_state: WristState
-    made: Step
+    step: Step
     commanded: Twist
     message: str
     moving_allowed: bool
@@ -76,7 +78,7 @@ class Supervisor:
         mode: Who is in charge.
     """
 
-    def __init__(self, wrist: Wrist, settings: Settings) -> None:
+    def __init__(self, wrist: Wrist, settings: SupervisorSettings) -> None:
         """Start at the initial positions, at rest.
 
         Raises:
@@ -86,8 +88,8 @@ class Supervisor:
         self.settings = settings
         self.state: State = start(wrist, settings.initial_positions)
         self.mode = Mode.FOLLOWING
-        self._commands: Newest[Command] = Newest()
-        self._measured: Positions | None = None
+        self._commands: LatestMessage[Command] = LatestMessage()
+        self._measured: tuple[float, ...] | None = None
         self._moved = False
         self._lagging_since: float | None = None
         self._fault = ''
@@ -96,15 +98,26 @@ class Supervisor:
         """Follow a command from the first step after its stamp; the newest counts."""
         self._commands.put(command.stamp, command)
 
-    def take_measured(self, names: Sequence[str], positions: Sequence[float], now: float) -> None:
+    def take_measured(
+        self, names: Sequence[str], positions: Sequence[float], receipt_time: float
+    ) -> None:
         """Hear where the joints really are; before the first motion, start from there.
+
+        Args:
+            names: Joint names, in any order; other joints may be among them.
+            positions: Their positions, rad or m.
+            receipt_time: Now, s.
 
         Raises:
             RefusedError: Wrong names, lengths or numbers; nothing has changed.
             UnreachableError: A start that the mechanism cannot take; nothing has changed, but
                 where the joints are was never known it is a fault: to go on would be a jump.
         """
-        measured = self._sorted(names, positions)
+        measured = in_joint_order([joint.name for joint in self.wrist.joints], names, positions)
+        if not all(math.isfinite(x) for x in measured):
+            raise RefusedError(
+                'not finite', f'Refused joint states that are not finite: {measured}.'
+            )
         if not self._moved and self.mode is Mode.FOLLOWING:
             try:
                 self._adopt(measured)
@@ -113,22 +126,27 @@ class Supervisor:
                     self._fail(str(error))
                 raise
         self._measured = measured
-        self._watch_lag(measured, now)
+        self._watch_lag(measured, receipt_time)
 
     def enable(self, wanted: bool) -> str:
-        """Allow or forbid motion; after a pause go on from where the joints really are."""
+        """Allow or forbid motion; after a pause go on from where the joints really are.
+
+        Raises:
+            WristError: The wrist cannot go on from there; it is in FAULT.
+        """
         if not wanted:
             self.mode = Mode.DISABLED
             return 'Disabled: the joints stay where they are.'
         if self.mode in (Mode.DISABLED, Mode.FAULT):
-            self._commands.forget()
+            self._commands.clear()
             self._lagging_since = None
             self._moved = False
             try:
                 if self._measured is not None:
                     self._adopt(self._measured)
             except WristError as error:
-                return self._fail(str(error)).message
+                self._fail(str(error))
+                raise
         self.mode = Mode.FOLLOWING
         return 'Enabled: following commands.'
 
@@ -147,100 +165,77 @@ class Supervisor:
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
-    def tick(self, now: float, received: float) -> Outcome:
+    def tick(self, *, stamp_time: float, receipt_time: float) -> PeriodResult:
         """Return what this period brings.
 
         Args:
-            now: The time on the clock of the stamps, s.
-            received: The time on the clock that ages are judged by, s.
+            stamp_time: Now, s.
+            receipt_time: Now, s.
         """
         try:
             if self.mode is Mode.HOMING:
                 return self._home()
             if self.mode is Mode.FOLLOWING:
-                return self._follow(self._commands.at(now), received)
-        except WristError as error:
+                return self._follow(self._commands.at(stamp_time), receipt_time)
+        except (WristError, ArithmeticError) as error:
             return self._fail(str(error))
         return self._stand_still()
 
-    def _follow(self, command: Command | None, received: float) -> Outcome:
-        commanded, fresh = self._commanded(command, received)
+    def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:
+        commanded, fresh = self._commanded(command, receipt_time)
         asked = commanded[-self.wrist.twist_size :]
-        made = step(self.wrist, self.state, asked, self.settings.dt)
-        self._moved = self._moved or any(made.joint_rates)
-        self.state = made.state
+        taken = step(self.wrist, self.state, asked, self.settings.dt)
+        self._moved = self._moved or any(taken.joint_rates)
+        self.state = taken.state
         if command is not None and fresh < 1.0 and any(command.twist):
             message = 'No fresh command: ramped to a stop; send commands again to go on.'
-            return Outcome(WristState.STALE, made, commanded, message, True)
-        message = sentence(self.wrist, made, asked)
-        return Outcome(state_of(made, asked), made, commanded, message, True)
+            return PeriodResult(WristState.STALE, taken, commanded, message, True)
+        message = sentence(self.wrist, taken, asked)
+        return PeriodResult(state_of(taken, asked), taken, commanded, message, True)
 
-    def _commanded(self, command: Command | None, received: float) -> tuple[Twist, float]:
+    def _commanded(self, command: Command | None, receipt_time: float) -> tuple[Twist, float]:
         if command is None:
-            return STILL, 0.0
-        age = received - command.received
+            return ZERO_TWIST, 0.0
+        age = receipt_time - command.receipt
         fresh = freshness(age, self.settings.command_timeout, self.settings.stop_time)
         vx, vy, vz, p, q, r = hand_twist(command, self.state.pose.quaternion)
         return (fresh * vx, fresh * vy, fresh * vz, fresh * p, fresh * q, fresh * r), fresh
 
-    def _home(self) -> Outcome:
-        before, aim, dt = self.state, self.settings.initial_positions, self.settings.dt
-        self.state = step_towards(self.wrist, before, aim, dt)
+    def _home(self) -> PeriodResult:
+        before, goal, dt = self.state, self.settings.initial_positions, self.settings.dt
+        self.state = step_towards(self.wrist, before, goal, dt)
         self._moved = True
         rates = tuple(
             (new - old) / dt
             for old, new in zip(before.positions, self.state.positions, strict=True)
         )
-        made = resting(self.wrist, self.state)._replace(joint_rates=rates)
-        if arrived(self.state, aim):
-            self._adopt(aim)
+        taken = resting(self.wrist, self.state)._replace(joint_rates=rates)
+        if has_reached(self.state, goal):
+            self._adopt(goal)
             self.state = self.state._replace(time_lost=0.0)
             self.mode = Mode.FOLLOWING
-            self._commands.forget()
+            self._commands.clear()
         message = 'Resetting: on the way back to initial_positions; commands do not count now.'
-        return Outcome(WristState.TRACKING, made, STILL, message, True)
+        return PeriodResult(WristState.TRACKING, taken, ZERO_TWIST, message, True)
 
-    def _stand_still(self) -> Outcome:
-        made = resting(self.wrist, self.state)
+    def _stand_still(self) -> PeriodResult:
+        resting_step = resting(self.wrist, self.state)
         if self.mode is Mode.FAULT:
-            return Outcome(WristState.FAULT, made, STILL, self._fault, False)
+            return PeriodResult(WristState.FAULT, resting_step, ZERO_TWIST, self._fault, False)
         message = 'Disabled: call ~/enable to go on from where the joints are.'
-        return Outcome(WristState.DISABLED, made, STILL, message, False)
+        return PeriodResult(WristState.DISABLED, resting_step, ZERO_TWIST, message, False)
 
-    def _fail(self, reason: str) -> Outcome:
+    def _fail(self, reason: str) -> PeriodResult:
         self.mode = Mode.FAULT
         self._fault = f'{reason} Call ~/enable to go on from where the joints are.'
         return self._stand_still()
 
-    def _adopt(self, measured: Positions) -> None:
-        positions = self.wrist.assembled(measured, self.state.pose)
+    def _adopt(self, measured: Sequence[float]) -> None:
+        positions = self.wrist.resolve_assembly(measured, self.state.pose)
         pose = self.wrist.forward(positions)
         self.state = State(positions, pose, time_lost=self.state.time_lost)
 
-    def _sorted(self, names: Sequence[str], positions: Sequence[float]) -> Positions:
-        expected = [joint.name for joint in self.wrist.joints]
-        if len(names) != len(positions):
-            raise RefusedError(
-                'wrong length',
-                f'Refused joint states with {len(names)} names and {len(positions)} positions; '
-                'send one position for each name.',
-            )
-        found = dict(zip(names, positions, strict=True))
-        missing = [name for name in expected if name not in found]
-        if missing or len(found) != len(names):
-            raise RefusedError(
-                'wrong joint names',
-                f'Refused joint states of {", ".join(names) or "no joint"}; this wrist needs '
-                f'{", ".join(expected)}, each once.',
-            )
-        measured = tuple(found[name] for name in expected)
-        if not all(math.isfinite(x) for x in measured):
-            raise RefusedError(
-                'not finite', f'Refused joint states that are not finite: {measured}.'
-            )
-        return measured
-
-    def _watch_lag(self, measured: Positions, now: float) -> None:
+    def _watch_lag(self, measured: Sequence[float], receipt_time: float) -> None:
         lags = [
             (abs(told - seen) - LAG[joint.kind], joint.name, told, seen)
             for joint, told, seen in zip(
@@ -251,6 +246,6 @@ class Supervisor:
         if excess <= 0.0 or self.mode not in (Mode.FOLLOWING, Mode.HOMING):
             self._lagging_since = None
         elif self._lagging_since is None:
-            self._lagging_since = now
-        elif now - self._lagging_since > LAG_TIME:
+            self._lagging_since = receipt_time
+        elif receipt_time - self._lagging_since > LAG_TIME:
             self._fail(f'{name} is at {seen:.3f} but was told {told:.3f}: it does not follow.')

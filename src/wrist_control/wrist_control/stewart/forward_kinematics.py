@@ -13,7 +13,7 @@ import numpy as np
 from wrist_control.rotations import Pose
 from wrist_control.stewart import assembly, batch, general, quadratics, stages, tracking
 from wrist_control.stewart.certificate import new
-from wrist_control.stewart.geometry import Anchors, hold_at
+from wrist_control.stewart.geometry import Anchors, hadamard_ratio_at
 from wrist_control.stewart.measurement import check_lengths, impossible_pair
 from wrist_control.stewart.stages import Track
 
@@ -294,7 +294,7 @@ class ForwardKinematics:
         return ColdStart(solution, others, _message(solution, len(others)))
 
     def _hold(self, pose: Pose) -> float:
-        return hold_at(self.platform, self.base, self.size, pose)
+        return hadamard_ratio_at(self.platform, self.base, self.size, pose)
 
     def _apart(self, solution: Solution, pose: Pose) -> float:
         assert solution.pose is not None

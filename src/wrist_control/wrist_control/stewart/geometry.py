@@ -97,11 +97,11 @@ def line(leg: Vector, reach: float, anchor: Vector) -> Line:
     return (nx, ny, nz, py * nz - pz * ny, pz * nx - px * nz, px * ny - py * nx)
 
 
-def hold(lines: Sequence[Line], size: float) -> float:
+def hadamard_ratio(lines: Sequence[Line], size: float) -> float:
     """Return how well the legs hold the platform: −1 to 1, and 0 at lock, where the sign changes.
 
-    The volume that the six lines span as six-vectors (n, p × n / size), as a share of what six
-    lines of those lengths can span (Hadamard's bound), so that it has no unit.
+    The determinant of the six lines (n, p × n / size) over the product of their lengths, which is
+    Hadamard's bound on it: a volume without a unit.
 
     Args:
         lines: Direction and moment of each leg, platform axes.
@@ -112,8 +112,8 @@ def hold(lines: Sequence[Line], size: float) -> float:
     return float(np.linalg.det(scaled)) / bound
 
 
-def hold_at(platform: Anchors, base: Anchors, size: float, pose: Pose) -> float:
-    """Return `hold` at a pose, of anchors in m."""
+def hadamard_ratio_at(platform: Anchors, base: Anchors, size: float, pose: Pose) -> float:
+    """Return `hadamard_ratio` at a pose, of anchors in m."""
     vectors = legs(platform, base, pose)
     lines = [line(v, length(v), p) for v, p in zip(vectors, platform, strict=True)]
-    return hold(lines, size)
+    return hadamard_ratio(lines, size)

@@ -16,27 +16,6 @@ from wrist_control.stewart.geometry import Anchors, Line
 SLACK = 1e-9
 
 
-def in_order(
-    expected: Sequence[str], names: Sequence[str], values: Sequence[float]
-) -> tuple[float, ...]:
-    """Return the values of the legs in their own order, whatever else is among the names.
-
-    Raises:
-        InvalidValueError: A leg is missing or named twice, or there is not one value per name.
-    """
-    if len(names) != len(values):
-        raise InvalidValueError(
-            f'There are {len(names)} joint names and {len(values)} values; give one for each.'
-        )
-    for name in expected:
-        if (times := list(names).count(name)) != 1:
-            raise InvalidValueError(
-                f'{name} is named {times} times; name each of {", ".join(expected)} once.'
-            )
-    by_name = dict(zip(names, values, strict=True))
-    return tuple(float(by_name[name]) for name in expected)
-
-
 def check_lengths(lengths: Sequence[float]) -> None:
     """Refuse what cannot be six leg lengths, m.
 

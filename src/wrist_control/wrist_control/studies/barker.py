@@ -16,7 +16,7 @@ DOWN: Vector = (0.0, 0.0, -1.0)
 LEFT: Vector = (0.0, 1.0, 0.0)
 
 
-class Row(NamedTuple):
+class Line(NamedTuple):
     """One line of a table: what is measured, as printed, as measured."""
 
     what: str
@@ -36,7 +36,7 @@ def angle_from_vertical(flight: Flight) -> np.ndarray:
     return np.arctan2(np.hypot(x, y), -z)
 
 
-def path_error(flight: Flight) -> float:
+def arc_error(flight: Flight) -> float:
     """Return the largest angle between the probe and the two arcs of Barker's figure 6, rad."""
     x, y, _ = np.abs(probe_direction(flight).T)
     return float(np.max(np.arcsin(np.minimum(1.0, np.minimum(x, y)))))
@@ -66,7 +66,7 @@ def _inches(flight: Flight, row: int, target: Vector) -> str:
     return f'{6.0 * tip_error(flight, row, target):.4f} in.'
 
 
-def three_gimbal_table(unscaled: Flight, scaled: Flight) -> list[Row]:
+def three_gimbal_table(unscaled: Flight, scaled: Flight) -> list[Line]:
     """Return the table of figures 6, 7 and 8 for the basic test maneuver.
 
     Args:
@@ -78,25 +78,25 @@ def three_gimbal_table(unscaled: Flight, scaled: Flight) -> list[Row]:
     peak = peak_rates(unscaled)
     delay = scaled.time[-1] - unscaled.time[-1]
     return [
-        Row('6: probe vertical after', '2.8125 s', f'{unscaled.time[lock]:.4f} s'),
-        Row('6: tip off (0, 0, -6) there', '0', _inches(unscaled, lock, DOWN)),
-        Row('6: tip off (0, 6, 0) at last', '0', _inches(unscaled, -1, LEFT)),
-        Row('7: jump of ψ, φ at lock', '90°, 90°', f'{psi:.4f}°, {phi:.4f}°'),
-        Row('7: rate of ψ, φ at lock', 'infinite', f'{peak[0]:.4f} deg/s = 90° / h'),
-        Row('7: peak rate of θ', '32 deg/s', f'{peak[1]:.4f} deg/s'),
-        Row('7: path error', 'agrees exactly', f'{math.degrees(path_error(unscaled)):.4f}°'),
-        Row('8: delay by scaling', 'about 2.8 s', f'{delay:.4f} s'),
-        Row('8: pause at vertical', 'about 2.8 s', f'{pause(scaled):.4f} s'),
+        Line('6: probe vertical after', '2.8125 s', f'{unscaled.time[lock]:.4f} s'),
+        Line('6: tip off (0, 0, -6) there', '0', _inches(unscaled, lock, DOWN)),
+        Line('6: tip off (0, 6, 0) at last', '0', _inches(unscaled, -1, LEFT)),
+        Line('7: jump of ψ, φ at lock', '90°, 90°', f'{psi:.4f}°, {phi:.4f}°'),
+        Line('7: rate of ψ, φ at lock', 'infinite', f'{peak[0]:.4f} deg/s = 90° / h'),
+        Line('7: peak rate of θ', '32 deg/s', f'{peak[1]:.4f} deg/s'),
+        Line('7: path error', 'agrees exactly', f'{math.degrees(arc_error(unscaled)):.4f}°'),
+        Line('8: delay by scaling', 'about 2.8 s', f'{delay:.4f} s'),
+        Line('8: pause at vertical', 'about 2.8 s', f'{pause(scaled):.4f} s'),
         _at_half_the_limit(scaled),
-        Row('8: time lost, ∫(1 − F) dt', 'not printed', f'{scaled.time_lost[-1]:.4f} s'),
-        Row('8: peak rate of any gimbal', '32 deg/s', f'{peak_rates(scaled).max():.4f} deg/s'),
-        Row('8: tip off (0, 6, 0) at last', '0', _inches(scaled, -1, LEFT)),
-        Row('8: path error', 'moves as desired', f'{math.degrees(path_error(scaled)):.4f}°'),
+        Line('8: time lost, ∫(1 − F) dt', 'not printed', f'{scaled.time_lost[-1]:.4f} s'),
+        Line('8: peak rate of any gimbal', '32 deg/s', f'{peak_rates(scaled).max():.4f} deg/s'),
+        Line('8: tip off (0, 6, 0) at last', '0', _inches(scaled, -1, LEFT)),
+        Line('8: path error', 'moves as desired', f'{math.degrees(arc_error(scaled)):.4f}°'),
     ]
 
 
-def _at_half_the_limit(scaled: Flight) -> Row:
+def _at_half_the_limit(scaled: Flight) -> Line:
     limits = [0.5 * joint.rate_limit for joint in scaled.wrist.joints]
     slow = pause(fly(scaled.wrist, scaled.maneuver, joint_rate_limits=limits))
     ratio = slow / pause(scaled)
-    return Row('8: the same at half the limit', 'twice as long', f'{slow:.4f} s = {ratio:.4f} ×')
+    return Line('8: the same at half the limit', 'twice as long', f'{slow:.4f} s = {ratio:.4f} ×')

@@ -65,7 +65,7 @@ def _axis(azimuth: float) -> tuple[float, float, float]:
 
 
 def _tilted(wrist: Carpal, azimuth: float, tilt: float, near: Positions) -> Positions:
-    return wrist.inverse(wrist.advance(wrist.forward(wrist.home), _axis(azimuth), tilt), near)
+    return wrist.inverse(wrist.target_pose(wrist.forward(wrist.home), _axis(azimuth), tilt), near)
 
 
 def _determinant(wrist: Carpal, angles: Positions) -> float:

@@ -16,7 +16,13 @@ from rich.progress import track
 from rich.table import Table
 
 from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver
-from wrist_control.studies.comparison import JOINT_SPEEDS, MANEUVERS, PATIENCE, Outcome, compare
+from wrist_control.studies.comparison import (
+    JOINT_SPEEDS,
+    MANEUVERS,
+    PATIENCE,
+    Performance,
+    compare,
+)
 from wrist_control.wrists import WRISTS
 
 HEADINGS = (
@@ -36,7 +42,7 @@ def _degrees_per_second() -> str:
     return f'{math.degrees(JOINT_SPEEDS["revolute"]):g} deg/s'
 
 
-def rows(outcomes: Sequence[Outcome]) -> list[tuple[str, ...]]:
+def rows(performances: Sequence[Performance]) -> list[tuple[str, ...]]:
     """Return what `HEADINGS` promise, as text."""
     return [
         (
@@ -50,7 +56,7 @@ def rows(outcomes: Sequence[Outcome]) -> list[tuple[str, ...]]:
             f'{o.stopped_by} at {o.stopped_at:.1f} s' if o.stopped_by else '',
             'yes' if o.completed else 'no',
         )
-        for o in outcomes
+        for o in performances
     ]
 
 
@@ -64,20 +70,20 @@ def caption() -> str:
     )
 
 
-def table(outcomes: Sequence[Outcome]) -> Table:
+def table(performances: Sequence[Performance]) -> Table:
     """Return the comparison as a table for a terminal."""
     made = Table(title='Every wrist, the same maneuvers', caption=caption())
     for number, heading in enumerate(HEADINGS):
         made.add_column(heading, justify='right' if 2 <= number <= 6 else 'left')
-    shown = rows(outcomes)
+    shown = rows(performances)
     for row, following in zip(shown, [*shown[1:], ('',)], strict=True):
         made.add_row(*row, end_section=row[0] != following[0])
     return made
 
 
-def markdown(outcomes: Sequence[Outcome]) -> str:
+def markdown(performances: Sequence[Performance]) -> str:
     """Return the comparison as a Markdown table."""
-    lines = [HEADINGS, ('---',) * len(HEADINGS), *rows(outcomes)]
+    lines = [HEADINGS, ('---',) * len(HEADINGS), *rows(performances)]
     return ''.join(f'| {" | ".join(line)} |\n' for line in lines) + f'\n{caption()}\n'
 
 
@@ -86,14 +92,14 @@ class Panel(NamedTuple):
 
     Attributes:
         title: What it is, with its unit.
-        value: Gets it from an outcome.
+        value: Gets it from an performance.
         form: How its value is written.
         good: The value drawn palest.
         bad: The value drawn darkest; shades in between are logarithmic.
     """
 
     title: str
-    value: Callable[[Outcome], float]
+    value: Callable[[Performance], float]
     form: str
     good: float
     bad: float
@@ -113,13 +119,13 @@ PANELS = (
 )
 
 
-def draw(outcomes: Sequence[Outcome], path: Path) -> None:
+def draw(performances: Sequence[Performance], path: Path) -> None:
     """Draw the comparison as four maps, wrists by maneuvers."""
     figure = Figure(figsize=(12.0, 9.5), layout='constrained')
     for axes, panel in zip(
         figure.subplots(2, 2, sharex=True, sharey=True).flat, PANELS, strict=True
     ):
-        _draw_panel(axes, outcomes, panel)
+        _draw_panel(axes, performances, panel)
     figure.suptitle(
         f'Every wrist, the same maneuvers, joints limited to {_degrees_per_second()}\n'
         'pale is good; × stopped before the end; * points only, without roll',
@@ -128,11 +134,11 @@ def draw(outcomes: Sequence[Outcome], path: Path) -> None:
     figure.savefig(path, dpi=90)
 
 
-def _draw_panel(axes: Axes, outcomes: Sequence[Outcome], panel: Panel) -> None:
-    wrists = list(dict.fromkeys(_marked(o) for o in outcomes))
-    maneuvers = list(dict.fromkeys(o.maneuver for o in outcomes))
+def _draw_panel(axes: Axes, performances: Sequence[Performance], panel: Panel) -> None:
+    wrists = list(dict.fromkeys(_marked(o) for o in performances))
+    maneuvers = list(dict.fromkeys(o.maneuver for o in performances))
     shades = np.zeros((len(wrists), len(maneuvers)))
-    for o in outcomes:
+    for o in performances:
         row, column = wrists.index(_marked(o)), maneuvers.index(o.maneuver)
         shade = math.log(max(panel.value(o), 1e-9) / panel.good) / math.log(panel.bad / panel.good)
         shades[row, column] = min(1.0, max(0.0, shade))
@@ -155,11 +161,11 @@ def _draw_panel(axes: Axes, outcomes: Sequence[Outcome], panel: Panel) -> None:
     axes.set_title(panel.title, fontsize=11)
 
 
-def _marked(o: Outcome) -> str:
+def _marked(o: Performance) -> str:
     return o.wrist if o.follows_roll else f'{o.wrist} *'
 
 
-def _label(o: Outcome, panel: Panel) -> str:
+def _label(o: Performance, panel: Panel) -> str:
     return panel.form.format(panel.value(o)) + ('' if o.completed else ' ×')
 
 
@@ -170,11 +176,13 @@ def main(
 ) -> None:
     """Compare wrists, print the table, and write it and the picture to a folder."""
     console = Console()
-    outcomes = compare(wrists, maneuvers, lambda pairs: track(pairs, 'flying', console=console))
+    performances = compare(
+        wrists, maneuvers, lambda pairs: track(pairs, 'flying', console=console)
+    )
     folder.mkdir(parents=True, exist_ok=True)
-    draw(outcomes, folder / 'compare.png')
-    (folder / 'compare.md').write_text(markdown(outcomes), encoding='utf-8')
-    console.print(table(outcomes))
+    draw(performances, folder / 'compare.png')
+    (folder / 'compare.md').write_text(markdown(performances), encoding='utf-8')
+    console.print(table(performances))
     console.print(f'The picture is {folder / "compare.png"}, the table {folder / "compare.md"}.')
 
 

@@ -28,7 +28,7 @@ JOINT_SPEEDS = {'revolute': BARKER_SPEED, 'prismatic': 0.27 * BARKER_SPEED}
 PATIENCE = 20.0
 
 
-class Outcome(NamedTuple):
+class Performance(NamedTuple):
     """What one wrist made of one maneuver.
 
     Attributes:
@@ -65,7 +65,7 @@ def compare(
     wrists: Sequence[str] = tuple(WRISTS),
     maneuvers: Sequence[Maneuver] = MANEUVERS,
     tracked: Callable[[Sequence[Pair]], Iterable[Pair]] = iter,
-) -> list[Outcome]:
+) -> list[Performance]:
     """Return what every wrist makes of every maneuver.
 
     Args:
@@ -74,7 +74,7 @@ def compare(
         tracked: Passes the flights on one by one, and may show how many are done.
     """
     pairs = [(wrist, maneuver) for maneuver in maneuvers for wrist in wrists]
-    return [_outcome(make_wrist(name), name, maneuver) for name, maneuver in tracked(pairs)]
+    return [_performance(make_wrist(name), name, maneuver) for name, maneuver in tracked(pairs)]
 
 
 def followed(wrist: Wrist) -> tuple[bool, bool, bool]:
@@ -133,7 +133,7 @@ def _seen(away: Vector, follows: tuple[bool, bool, bool]) -> float:
     return math.hypot(*(x for x, follow in zip(away, follows, strict=True) if follow))
 
 
-def _outcome(wrist: Wrist, name: str, maneuver: Maneuver) -> Outcome:
+def _performance(wrist: Wrist, name: str, maneuver: Maneuver) -> Performance:
     limits = [JOINT_SPEEDS[joint.kind] for joint in wrist.joints]
     maneuver = about_approach(maneuver, approach_axis(wrist))
     steps = STEPS.get(maneuver.name, BARKER_STEPS)
@@ -141,7 +141,7 @@ def _outcome(wrist: Wrist, name: str, maneuver: Maneuver) -> Outcome:
     flight = fly(wrist, maneuver, steps, limits, patience=patience)
     free = fly(wrist, maneuver, steps, patience=patience)
     stopped_by, stopped_at = first_stop(flight)
-    return Outcome(
+    return Performance(
         wrist=name,
         maneuver=maneuver.name,
         follows_roll=all(followed(wrist)),

@@ -15,12 +15,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wrist_control.flight import Flight
+from wrist_control.units import INCH
 
 GREEK = {'psi': 'ψ', 'theta': 'θ', 'phi': 'φ', 'alpha': 'α'}
 # Readable in black and white and by the colour-blind.
 COLORS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
 STYLES = ('-', '--', '-.', ':', '-', '--')
-INCH = 0.0254
 # A rate beyond this many times the commanded one would hide all others.
 CROWDED = 8.0
 

@@ -7,10 +7,11 @@ from importlib import import_module
 from typing import Any
 
 from wrist_control.errors import InvalidValueError
+from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.registry import WRISTS
-from wrist_control.wrists.wrist import Clearance, Joint, Wrist
+from wrist_control.wrists.wrist import Clearance, Configuration, Wrist
 
-__all__ = ['WRISTS', 'Clearance', 'Joint', 'Wrist', 'make_wrist', 'wrist_class']
+__all__ = ['WRISTS', 'Clearance', 'Configuration', 'Joint', 'Wrist', 'make_wrist', 'wrist_class']
 
 
 def wrist_class(name: str) -> type[Wrist]:
@@ -21,8 +22,8 @@ def wrist_class(name: str) -> type[Wrist]:
     """
     if name not in WRISTS:
         raise InvalidValueError(f'There is no wrist {name!r}; the wrists are {", ".join(WRISTS)}.')
-    found: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), WRISTS[name])
-    return found
+    kind: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), WRISTS[name])
+    return kind
 
 
 def make_wrist(name: str, **dimensions: Any) -> Wrist:
@@ -35,11 +36,11 @@ def make_wrist(name: str, **dimensions: Any) -> Wrist:
     Raises:
         InvalidValueError: No wrist of that name, or a dimension it does not have or accept.
     """
-    made = wrist_class(name)
-    known = [own.name for own in fields(made) if own.name != 'joints']
+    kind = wrist_class(name)
+    known = [own.name for own in fields(kind) if own.name != 'joints']
     strange = [key for key in dimensions if key not in known]
     if strange:
         raise InvalidValueError(
             f'{name} has no parameter {", ".join(strange)}; it has {", ".join(known) or "none"}.'
         )
-    return made(**dimensions)
+    return kind(**dimensions)

@@ -16,18 +16,15 @@ import numpy as np
 
 from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.rotations import Pose, Vector, nearest_turn, turned, unit
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist, parameter
+from wrist_control.wrists.dimension import dimension
+from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist, soft_edge
 
 # Azimuths of the three legs as (cos, sin), [Canfield1997], fig. 4.1.
 AZIMUTHS = ((1.0, 0.0), (-0.5, math.sqrt(0.75)), (-0.5, -math.sqrt(0.75)))
 # Poses this far from the mechanism's own, relative to its size, still count as its own.
 TOLERANCE = 1e-6
-# The hand stops where a leg is still this far from folding (the sine of the angle to its fold):
-# at the fold itself the two assembly branches of a leg meet.
-EDGE = 0.02
-# The edge is neared over about this time, s, so that the hand arrives slowly.
-HORIZON = 0.1
-# What can end the workspace, in the order of the rooms that are left of it.
+# What can end the workspace, in the order of `_distances`.
 EDGES = (
     'closure of leg 1',
     'closure of leg 2',
@@ -61,9 +58,9 @@ class Carpal(Wrist):
     start with is held.
     """
 
-    base_radius: float = parameter(0.075, 'from the plate centre to a leg hinge', 'm', 1e-4)
-    leg_length: float = parameter(0.1, 'from a leg hinge to its mid-node', 'm', 1e-4)
-    plunge: float = parameter(0.07, 'from the base plate to the midplane at home', 'm', 1e-4)
+    base_radius: float = dimension(0.075, 'from the plate centre to a leg hinge', 'm', 1e-4)
+    leg_length: float = dimension(0.1, 'from a leg hinge to its mid-node', 'm', 1e-4)
+    plunge: float = dimension(0.07, 'from the base plate to the midplane at home', 'm', 1e-4)
 
     default_joints: ClassVar[tuple[Joint, ...]] = (
         Joint('theta_1'),
@@ -103,7 +100,10 @@ class Carpal(Wrist):
         reach = x * px + y * py + z * pz
         away = math.dist(pose.position, (reach * x, reach * y, reach * z))
         if abs(torsion) > TOLERANCE or away > TOLERANCE * self.leg_length:
-            raise UnreachableError('the hand can only tilt, mirrored, without torsion')
+            raise UnreachableError(
+                'The hand can only tilt, mirrored, without torsion; aim for such a pose.',
+                'tilt without torsion',
+            )
         return tuple(
             self._leg_angle(leg, x * cos + y * sin, z, 0.5 * reach, near[leg])
             for leg, (cos, sin) in enumerate(AZIMUTHS)
@@ -115,7 +115,7 @@ class Carpal(Wrist):
         c = (distance - outward * self.base_radius) / self.leg_length
         discriminant = outward * outward + up * up - c * c
         if discriminant < 0.0:
-            raise UnreachableError(EDGES[leg])
+            raise _at_edge(EDGES[leg])
         middle = math.atan2(up, outward)
         half = math.atan2(math.sqrt(discriminant), c)
         first, second = nearest_turn(middle - half, near), nearest_turn(middle + half, near)
@@ -151,7 +151,7 @@ class Carpal(Wrist):
             columns.append((upward * turning[0], upward * turning[1], gain * plunging))
         return np.array(columns).T
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return θ̇1, θ̇2, θ̇3 that make p and q and hold the plunge; r is not free."""
         nodes, (x, y, z), _, lifts = self._midplane(positions)
         p, q = twist[0], twist[1]
@@ -164,7 +164,7 @@ class Carpal(Wrist):
             for m, lift in zip(nodes, lifts, strict=True)
         )
 
-    def advance(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
+    def target_pose(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
         """Return the pose after p and q for a time, exactly, the plunge held.
 
         The forced r = (n_x p + n_y q) / n_z does not change while p and q do not.
@@ -176,7 +176,7 @@ class Carpal(Wrist):
         p, q = twist[0], twist[1]
         a1, _, a3, a4 = turned(pose.quaternion, (p, q, (x * p - minus_y * q) / z), dt)
         if a1 * z <= 0.0:
-            raise UnreachableError(EDGES[3])
+            raise _at_edge(EDGES[3])
         z1, _, x1, minus_y1 = unit((a1, 0.0, a3, a4))
         px, py, pz = pose.position
         reach = (x * px - minus_y * py + z * pz) * z1 / z
@@ -184,13 +184,13 @@ class Carpal(Wrist):
 
     def margin(self, positions: Sequence[float]) -> float:
         """Return the smallest of what is left of the legs, of the tilt and of the midplane."""
-        return min(self._rooms(positions))
+        return min(self._distances(positions))
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
         """Return what is left to the workspace edge, in sines of angles."""
         return tuple(
-            Clearance(name, room - EDGE, HORIZON)
-            for name, room in zip(EDGES, self._rooms(positions), strict=True)
+            soft_edge(name, distance)
+            for name, distance in zip(EDGES, self._distances(positions), strict=True)
         )
 
     def reach(self, azimuth: float) -> float:
@@ -215,7 +215,7 @@ class Carpal(Wrist):
         )
         return 2.0 * math.atan2(1.0, max(0.0, cotangent))
 
-    def _rooms(self, positions: Sequence[float]) -> tuple[float, ...]:
+    def _distances(self, positions: Sequence[float]) -> tuple[float, ...]:
         _, normal, area, lifts = self._midplane(positions)
         legs = (abs(lift) / self.leg_length for lift in lifts)
         return (*legs, abs(normal[2]), area / (self.base_radius + self.leg_length) ** 2)
@@ -232,10 +232,14 @@ class Carpal(Wrist):
         x, y, z = _cross(_from(a, b), _from(a, c))
         area = math.sqrt(x * x + y * y + z * z)
         if area < TOLERANCE * self.leg_length * self.leg_length:
-            raise UnreachableError('mid-nodes in one line')
+            raise _at_edge(EDGES[4])
         x, y, z = x / area, y / area, z / area
         l1, l2, l3 = (z * out - up * (x * cos + y * sin) for cos, sin, out, up in legs)
         return _Midplane((a, b, c), (x, y, z), area, (l1, l2, l3))
+
+
+def _at_edge(edge: str) -> UnreachableError:
+    return UnreachableError(f'The hand cannot go beyond its edge, {edge}; turn it back.', edge)
 
 
 def _from(a: Vector, b: Vector) -> Vector:

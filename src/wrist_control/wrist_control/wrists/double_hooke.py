@@ -5,21 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from wrist_control.rotations import Pose, Vector, about_x, conjugate, nearest_turn, product
+from wrist_control.wrists.dimension import dimension
+from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.single_hooke import cone, cone_half_angle
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist, parameter
+from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist
 
 # Below this the two parts of a half-angle are round-off: the joint stays where it is.
 LOCK = 1e-9
 
 
-def shaft_length() -> Any:
+def shaft_length() -> float:
     """Return the dataclass field for the length of the intermediate shaft."""
-    return parameter(0.1, 'length l of the shaft between the two Hooke joints', 'm', 0.001)
+    return dimension(0.1, 'length l of the shaft between the two Hooke joints', 'm', 0.001)
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ class DoubleHooke(Wrist):
             ]
         )
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return φ̇, θ̇, ψ̇. [McKinney1988], eqs. (24) to (26)."""
         _, theta, psi = positions
         p, q, r = twist
@@ -114,7 +116,7 @@ class DoubleHooke(Wrist):
         return abs(math.cos(theta) * math.cos(psi))
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
-        """Return the room left inside the cone of the intermediate shaft."""
+        """Return what is left inside the cone of the intermediate shaft."""
         _, theta, psi = positions
         return (cone(math.cos(theta) * math.cos(psi), self.cone_half_angle),)
 

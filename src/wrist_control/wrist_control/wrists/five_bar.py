@@ -17,17 +17,14 @@ import numpy as np
 
 from wrist_control.errors import UnreachableError
 from wrist_control.rotations import Pose, direction_cosines, nearest_turn
+from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.pitch_yaw import PitchYaw
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist
+from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist, soft_edge
 
 SERIAL = PitchYaw()
-# The hand stops this far from the equator (the sine of the angle): on it a joint stands still or
-# the two moving joints align and the hand is loose.
-EDGE = 0.02
-# The equator is neared over about this time, s, so that the hand arrives slowly.
-HORIZON = 0.1
 # Nearer than this to both joints at 90° the direction of N is round-off.
 LOOSE = 1e-9
+EQUATOR = 'equator'
 
 
 @dataclass(frozen=True)
@@ -62,7 +59,7 @@ class FiveBar(Wrist):
         found: np.ndarray = serial @ np.array([[by_theta_1, by_theta_2], [1.0, 0.0]])
         return found
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return θ̇1 and θ̇2 that make p and q; r is not free."""
         by_theta_1, by_theta_2 = self._pitch_slopes(positions)
         pitch_rate, theta_1_rate = SERIAL.rates(self._serial(positions), twist)
@@ -74,18 +71,21 @@ class FiveBar(Wrist):
         return abs(math.cos(theta_1) * math.cos(pitch))
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
-        """Return what is left to the equator, the edge of the workspace."""
-        return (Clearance('equator', self.margin(positions) - EDGE, HORIZON),)
+        """Return what is left to the equator, the edge of the workspace.
 
-    def advance(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
+        On it a joint stands still, or the two moving joints align and the hand is loose.
+        """
+        return (soft_edge(EQUATOR, self.margin(positions)),)
+
+    def target_pose(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
         """Return the pose after p and q for a time: the same hand as the pitch-yaw pointer's.
 
         Raises:
             UnreachableError: The hand would cross the equator.
         """
-        after = SERIAL.advance(pose, twist, dt)
+        after = SERIAL.target_pose(pose, twist, dt)
         if _height(pose) * _height(after) <= 0.0:
-            raise UnreachableError('equator')
+            raise UnreachableError('The hand cannot cross the equator; turn it back.', EQUATOR)
         return after
 
     @staticmethod
@@ -94,7 +94,9 @@ class FiveBar(Wrist):
         theta_1, theta_2 = positions
         s, c = math.cos(theta_1) * math.sin(theta_2), math.cos(theta_2)
         if math.hypot(s, c) < LOOSE:
-            raise UnreachableError('both joints at 90°, where the hand is loose')
+            raise UnreachableError(
+                'With both joints at 90 deg the hand is loose; turn one of them back.', EQUATOR
+            )
         return (math.atan2(-s, c), theta_1)
 
     @staticmethod

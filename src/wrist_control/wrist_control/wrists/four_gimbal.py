@@ -10,8 +10,10 @@ from typing import ClassVar
 import numpy as np
 
 from wrist_control.rotations import Pose, Vector, about_z, product
+from wrist_control.wrists.dimension import dimension
+from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.three_gimbal import ThreeGimbal
-from wrist_control.wrists.wrist import Joint, Memory, Positions, Wrist, parameter
+from wrist_control.wrists.wrist import Positions, Rates, SteeringState, Wrist, hardest_rotation
 
 # The gimbals under the fourth one.
 INNER = ThreeGimbal()
@@ -29,7 +31,7 @@ class FourGimbal(Wrist):
     still needs, and they lock where those of the three-gimbal wrist do.
     """
 
-    gain: float = parameter(
+    gain: float = dimension(
         0.8, 'gain K of the fourth gimbal; above the fastest hand rate', 'rad/s', 0.001, 10.0
     )
 
@@ -57,7 +59,7 @@ class FourGimbal(Wrist):
         to_hand = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
         return np.column_stack([to_hand @ INNER.jacobian(positions[:3]), (0.0, 0.0, 1.0)])
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return ψ̇, θ̇, φ̇, α̇; all zero for a zero twist. [Barker1986], figs. 4(b) and 5(d)."""
         p, q, r = twist
         if p == q == r == 0.0:
@@ -75,9 +77,9 @@ class FourGimbal(Wrist):
         """
         return INNER.margin(positions[:3])
 
-    def steer(
-        self, positions: Positions, factor: float, dt: float, memory: Memory
-    ) -> tuple[Positions, Memory]:
+    def choose_branch_reference(
+        self, positions: Positions, factor: float, dt: float, steering_state: SteeringState
+    ) -> tuple[Positions, SteeringState]:
         """Return α after the step, by second-order Adams-Bashforth. [Barker1986], fig. 5(a).
 
         Remembered is the rate at the start of the last step that moved, unscaled, so that α
@@ -86,16 +88,15 @@ class FourGimbal(Wrist):
         """
         law, share = self._alpha_rate(positions)
         rate = share * law
-        mean = 1.5 * rate - 0.5 * memory[0] if memory and share == 1.0 else rate
+        mean = 1.5 * rate - 0.5 * steering_state[0] if steering_state and share == 1.0 else rate
         return (*positions[:3], positions[3] + factor * dt * mean), (rate,)
 
     def lost_axis(self, positions: Sequence[float]) -> Vector:
         """Return the rotation that ψ, θ and φ find hardest to make, in hand axes."""
-        x, y, z = np.linalg.svd(self.jacobian(positions)[:, :3])[0][:, -1]
-        return (float(x), float(y), float(z))
+        return hardest_rotation(self.jacobian(positions)[:, :3])
 
     def _alpha_rate(self, positions: Sequence[float]) -> tuple[float, float]:
-        """Return α̇ by Barker's law, rad/s, and the share of it that the joints have room for.
+        """Return α̇ by Barker's law, rad/s, and the share of it that the joints have space for.
 
         Turning α turns the other gimbals even when the hand stands still. Without the share
         they would be held against a position limit, or α against its own, whatever is commanded.
@@ -112,7 +113,9 @@ class FourGimbal(Wrist):
         for joint, position, move in zip(self.joints, positions, moves, strict=True):
             speed = move * law
             bound = joint.upper if speed * cosine > 0.0 else joint.lower
-            if speed and math.isfinite(bound):
-                room = (bound - position) * math.copysign(cosine, speed)
-                share = min(share, max(0.0, room) / (CUSHION * abs(speed)))
+            if math.isfinite(bound):
+                space = (bound - position) * math.copysign(cosine, speed)
+                fastest = CUSHION * abs(speed)
+                if 0.0 < fastest > space:
+                    share = min(share, max(0.0, space) / fastest)
         return law, share

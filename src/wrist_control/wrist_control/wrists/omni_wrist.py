@@ -12,8 +12,9 @@ import numpy as np
 from wrist_control.errors import UnreachableError
 from wrist_control.rotations import Pose, Vector, about_x, conjugate, nearest_turn, product
 from wrist_control.wrists.double_hooke import LOCK, nearest_half_turn, shaft_length
+from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.single_hooke import cone, cone_half_angle
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist
+from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist
 
 
 @dataclass(frozen=True)
@@ -94,7 +95,7 @@ class OmniWrist(Wrist):
             ]
         )
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return φ̇, θ̇a, ψ̇a, which the paper does not give; docs/equations.md derives them.
 
         In a pure roll both drives stand still.
@@ -116,7 +117,7 @@ class OmniWrist(Wrist):
         return abs(shaft(positions)[0])
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
-        """Return the room left inside the cone of the intermediate shaft."""
+        """Return what is left inside the cone of the intermediate shaft."""
         return (cone(shaft(positions)[0], self.cone_half_angle),)
 
 
@@ -131,6 +132,7 @@ def shaft(positions: Sequence[float]) -> Vector:
     norm = math.hypot(ct, st * cp)
     if norm < LOCK:
         raise UnreachableError(
-            'Both gear drives are at 90 deg, where they hold no shaft; turn one of them back.'
+            'Both gear drives are at 90 deg, where they hold no shaft; turn one of them back.',
+            'both drives at 90 deg',
         )
     return (ct * cp / norm, ct * sp / norm, -st * cp / norm)

@@ -22,7 +22,8 @@ from wrist_control.rotations import (
     to_forearm,
     turned,
 )
-from wrist_control.wrists.wrist import Joint, Positions, Wrist
+from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.wrist import Positions, Rates, Wrist
 
 # Orientations this far from the mechanism's own, rad, still count as its own.
 TOLERANCE = 1e-6
@@ -46,7 +47,10 @@ class PitchYaw(Wrist):
         """Return θ1 and θ2 of a pose; whole turns apart there is only one branch."""
         (c11, c12, c13), (_, c22, _), (_, c32, _) = direction_cosines(pose.quaternion)
         if abs(c12) > TOLERANCE:
-            raise UnreachableError('the hand can only point, with the roll that follows')
+            raise UnreachableError(
+                'The hand can only point, with the roll that follows; aim for such a pose.',
+                'roll that is not free',
+            )
         theta_1, theta_2 = math.atan2(-c32, c22), math.atan2(-c13, c11)
         return (nearest_turn(theta_1, near[0]), nearest_turn(theta_2, near[1]))
 
@@ -55,7 +59,7 @@ class PitchYaw(Wrist):
         s, c = math.sin(positions[0]), math.cos(positions[0])
         return np.array([[1.0, 0.0], [0.0, c], [0.0, -s]])
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return θ̇1 and θ̇2 that make p and q; r = -q tan θ1 is not free."""
         return (twist[0], twist[1] / math.cos(positions[0]))
 
@@ -63,7 +67,7 @@ class PitchYaw(Wrist):
         """Return |cos θ1|, 0 at lock."""
         return abs(math.cos(positions[0]))
 
-    def advance(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
+    def target_pose(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
         """Return the pose after p and q for a time, right to second order.
 
         The roll that the mechanism forces turns p and q as well: it is found first, then used.

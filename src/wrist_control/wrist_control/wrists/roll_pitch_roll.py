@@ -10,8 +10,9 @@ from typing import ClassVar
 import numpy as np
 
 from wrist_control.rotations import Pose, about_x, about_y, product
+from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.three_gimbal import ThreeGimbal
-from wrist_control.wrists.wrist import Joint, Positions, Wrist
+from wrist_control.wrists.wrist import Positions, Rates, Wrist
 
 # The same three joints as a three-gimbal wrist whose forearm is bent by this, rad: a roll about
 # the forearm's x axis is a roll about the z axis that is bent there.
@@ -61,7 +62,7 @@ class RollPitchRoll(Wrist):
         s6, c6 = math.sin(third), math.cos(third)
         return np.array([[c5, 0.0, 1.0], [s5 * s6, c6, 0.0], [s5 * c6, -s6, 0.0]])
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return θ̇4, θ̇5, θ̇6."""
         _, second, third = positions
         p, q, r = twist

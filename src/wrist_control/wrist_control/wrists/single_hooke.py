@@ -5,21 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from wrist_control.rotations import Pose, about_x, about_y, about_z, conjugate, product
+from wrist_control.wrists.dimension import dimension
+from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.three_gimbal import ThreeGimbal
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist, parameter
+from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist
 
 # Seen from the hand, a Hooke joint is a three-gimbal wrist that turns the other way.
 SEEN_FROM_HAND = ThreeGimbal()
 
 
-def cone_half_angle() -> Any:
+def cone_half_angle() -> float:
     """Return the dataclass field for the largest bend of a Hooke joint."""
-    return parameter(
+    return dimension(
         math.radians(45.0),
         'largest bend of a Hooke joint, below 90 deg',
         'rad',
@@ -67,7 +69,7 @@ class SingleHooke(Wrist):
         cosine = math.cos(theta)
         return np.array([[cosine * c, s, 0.0], [-cosine * s, c, 0.0], [math.sin(theta), 0.0, 1.0]])
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return φ̇, θ̇, ψ̇. [McKinney1988], eqs. (1) to (3)."""
         _, theta, psi = positions
         p, q, r = twist
@@ -80,6 +82,6 @@ class SingleHooke(Wrist):
         return abs(math.cos(positions[1]))
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
-        """Return the room left inside the cone of the driven shaft."""
+        """Return what is left inside the cone of the driven shaft."""
         _, theta, psi = positions
         return (cone(math.cos(theta) * math.cos(psi), self.cone_half_angle),)

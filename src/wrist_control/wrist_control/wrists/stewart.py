@@ -17,18 +17,20 @@ from wrist_control.stewart.geometry import (
     Anchors,
     Line,
     checked_anchors,
-    hold,
+    hadamard_ratio,
     legs,
     length,
     line,
     ring,
 )
-from wrist_control.wrists.wrist import Clearance, Joint, Positions, Wrist, parameter, points
+from wrist_control.units import INCH
+from wrist_control.wrists.dimension import dimension, point_list
+from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.wrist import Clearance, Configuration, Rates, Wrist, soft_edge
 
-INCH = 0.0254
 # The hand stops at this margin: closer to lock the legs no longer hold it.
 EDGE = 0.01
-# The room above EDGE may not shrink faster than itself over this time, s.
+# A platform near lock slips fast, so the edge is neared over this long, s.
 HORIZON = 0.5
 # Lengths this much further on than a pose belong to it only if they fit no other, m.
 FAR = 0.02
@@ -38,31 +40,30 @@ SHORTEST = 1e-6
 Points = Sequence[Sequence[float]] | Sequence[float]
 
 
-class LegLengths(tuple[float, ...]):
-    """Six leg lengths, m, that know the pose they hold: lengths alone can fit several poses.
+@dataclass(frozen=True)
+class LegConfiguration(Configuration):
+    """Six leg lengths, m, and the pose they hold: lengths alone can fit several poses.
 
     Attributes:
-        pose: The pose of the platform in the base frame.
         lines: Direction and moment of each leg, platform axes.
         size: Characteristic length that makes moments comparable with directions, m.
     """
 
-    pose: Pose
-    lines: list[Line]
+    lines: tuple[Line, ...]
     size: float
 
     @cached_property
-    def hold(self) -> float:
-        """How well the legs hold the platform: `geometry.hold`."""
-        return hold(self.lines, self.size)
+    def hadamard_ratio(self) -> float:
+        """How well the legs hold the platform: `geometry.hadamard_ratio`."""
+        return hadamard_ratio(self.lines, self.size)
 
 
 @dataclass(frozen=True)
 class Stewart(Wrist):
     """Two platforms joined by six legs whose lengths are driven.
 
-    Its joint positions are `LegLengths`; where plain numbers are given, they are taken to belong
-    to the assembly that the home pose belongs to, and cost a forward-kinematics solve.
+    Its joint positions come as a `LegConfiguration`; where plain numbers are given, they are taken
+    to belong to the assembly that the home pose belongs to, and cost a forward-kinematics solve.
 
     Attributes:
         platform_anchors: Six points in platform axes, m, shape (6, 3), for a platform that is not
@@ -71,20 +72,20 @@ class Stewart(Wrist):
         home_height: Height of the platform above the base at home, level and centred, m.
     """
 
-    platform_radius: float = parameter(10.441 * INCH, 'platform radius r_P', 'm', 1e-6)
-    base_radius: float = parameter(13.838 * INCH, 'base radius r_B', 'm', 1e-6)
-    platform_angle: float = parameter(
+    platform_radius: float = dimension(10.441 * INCH, 'platform radius r_P', 'm', 1e-6)
+    base_radius: float = dimension(13.838 * INCH, 'base radius r_B', 'm', 1e-6)
+    platform_angle: float = dimension(
         math.radians(99.20), 'angle θ_P between the platform anchors 1 and 2', 'rad', 0.0, 2.0944
     )
-    base_angle: float = parameter(
+    base_angle: float = dimension(
         math.radians(16.0), 'angle θ_B between the base anchors 1 and 2', 'rad', 0.0, 2.0944
     )
-    home_height: float = parameter(17.0 * INCH, 'height z of the platform at home', 'm', 1e-6)
-    platform_anchors: Points | None = points(
+    home_height: float = dimension(17.0 * INCH, 'height z of the platform at home', 'm', 1e-6)
+    platform_anchors: Points | None = point_list(
         'x, y, z of the six platform anchors, platform axes, instead of platform_radius and '
         'platform_angle'
     )
-    base_anchors: Points | None = points(
+    base_anchors: Points | None = point_list(
         'x, y, z of the six base anchors, base axes, instead of base_radius and base_angle'
     )
 
@@ -100,10 +101,11 @@ class Stewart(Wrist):
             given = getattr(self, name)
             if given is not None:
                 object.__setattr__(self, name, checked_anchors(name, given))
-        if abs(self.home.hold) < EDGE:
+        if abs(self.home.hadamard_ratio) < EDGE:
+            margin = self.home.hadamard_ratio
             raise InvalidValueError(
-                f'These anchors do not hold the platform at home (margin {self.home.hold:.2g}); '
-                f'choose others, or a home_height where the margin is above {EDGE:g}.'
+                f'These anchors do not hold the platform at home (margin {margin:.2g}); choose '
+                f'others, or a home_height where the margin is above {EDGE:g}.'
             )
 
     @cached_property
@@ -131,37 +133,40 @@ class Stewart(Wrist):
         return ForwardKinematics(self.platform, self.base, self.size, self.home.pose)
 
     @cached_property
-    def home(self) -> LegLengths:  # type: ignore[override]
+    def home(self) -> LegConfiguration:  # type: ignore[override]
         """Leg lengths that hold the platform level at the home height, m."""
-        return self.held(Pose(IDENTITY, (0.0, 0.0, self.home_height)))
+        return self.assembly_at(Pose(IDENTITY, (0.0, 0.0, self.home_height)))
 
-    def held(self, pose: Pose) -> LegLengths:
+    def assembly_at(self, pose: Pose) -> LegConfiguration:
         """Return the leg lengths that hold the platform at a pose. [Nguyen1991], eq. (11).
 
         Raises:
             UnreachableError: An anchor of the platform would lie on its anchor of the base.
         """
         vectors = legs(self.platform, self.base, pose)
-        lengths = LegLengths(length(vector) for vector in vectors)
-        if not min(lengths) > SHORTEST * self.size:
-            raise UnreachableError('A leg would have no length; keep the platform off the base.')
-        lengths.pose = pose
-        lengths.lines = [
+        lengths = tuple([length(vector) for vector in vectors])
+        shortest = min(lengths)
+        if not shortest > SHORTEST * self.size:
+            leg = lengths.index(shortest) + 1
+            raise UnreachableError(
+                f'leg_{leg} would have no length; keep the platform off the base.',
+                f'leg_{leg} without length',
+            )
+        lines = [
             line(vector, reach, anchor)
             for vector, reach, anchor in zip(vectors, lengths, self.platform, strict=True)
         ]
-        lengths.size = self.size
-        return lengths
+        return LegConfiguration(lengths, pose, tuple(lines), self.size)
 
-    def inverse(self, pose: Pose, near: Sequence[float]) -> Positions:
+    def inverse(self, pose: Pose, near: Sequence[float]) -> LegConfiguration:
         """Return the leg lengths of a pose; there is one set only, and `near` is not needed."""
-        return self.held(pose)
+        return self.assembly_at(pose)
 
     def jacobian(self, positions: Sequence[float]) -> np.ndarray:
         """Return (vx, vy, vz, p, q, r) per leg rate, shape (6, 6), platform axes."""
         return np.linalg.inv(np.array(self._assembled(positions).lines))
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return the leg rates of a hand twist, m/s; all of them finite at every pose."""
         vx, vy, vz, p, q, r = twist
         return tuple(
@@ -170,19 +175,19 @@ class Stewart(Wrist):
         )
 
     def margin(self, positions: Sequence[float]) -> float:
-        """Return how well the legs hold the platform, 0 at lock, at most 1: `LegLengths.hold`.
+        """Return how well the legs hold the platform, 0 at lock, at most 1.
 
-        The characteristic length that makes it free of units is `size`.
+        The size of `geometry.hadamard_ratio`, made free of units by `size`.
         """
-        return abs(self._assembled(positions).hold)
+        return abs(self._assembled(positions).hadamard_ratio)
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
-        """Return the room before lock, on home's side of it: the hand slows and never crosses."""
-        side = math.copysign(1.0, self.home.hold)
-        room = side * self._assembled(positions).hold - EDGE
-        return (Clearance('the legs near lock', room, HORIZON),)
+        """Return what is left before lock, on home's side of it: the hand never crosses."""
+        side = math.copysign(1.0, self.home.hadamard_ratio)
+        distance = side * self._assembled(positions).hadamard_ratio
+        return (soft_edge('the legs near lock', distance, EDGE, HORIZON),)
 
-    def advance(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
+    def target_pose(self, pose: Pose, twist: Sequence[float], dt: float) -> Pose:
         """Return the pose after a hand twist for a time: along the axes where it started."""
         vx, vy, vz, p, q, r = twist
         dx, dy, dz = to_forearm(pose.quaternion, (vx * dt, vy * dt, vz * dt))
@@ -197,10 +202,10 @@ class Stewart(Wrist):
         norm = math.sqrt(x * x + y * y + z * z)
         return (float(x / norm), float(y / norm), float(z / norm)) if norm else (0.0, 0.0, 1.0)
 
-    def _assembled(self, positions: Sequence[float]) -> LegLengths:
-        if isinstance(positions, LegLengths):
+    def _assembled(self, positions: Sequence[float]) -> LegConfiguration:
+        if isinstance(positions, LegConfiguration):
             return positions
-        return self.held(self.forward(positions))
+        return self.assembly_at(self.forward(positions))
 
     def forward(self, positions: Sequence[float]) -> Pose:
         """Return the pose that the legs hold.
@@ -208,11 +213,11 @@ class Stewart(Wrist):
         Raises:
             UnreachableError: No pose could be proved to be the one that these lengths hold.
         """
-        if isinstance(positions, LegLengths):
+        if isinstance(positions, LegConfiguration):
             return positions.pose
         return self._proved(positions, self.home.pose, 'home')
 
-    def assembled(self, positions: Sequence[float], near: Pose) -> LegLengths:
+    def resolve_assembly(self, positions: Sequence[float], near: Pose) -> LegConfiguration:
         """Return the lengths with the pose that the legs hold, continued from a pose before.
 
         Raises:
@@ -220,19 +225,21 @@ class Stewart(Wrist):
                 lengths are far from there, and fit another pose as well.
         """
         pose = self._proved(positions, near, 'the pose before')
-        travel = max(abs(x - y) for x, y in zip(positions, self.held(near), strict=True))
+        travel = max(abs(x - y) for x, y in zip(positions, self.assembly_at(near), strict=True))
         if travel > FAR and self.forward_kinematics.cold_start(positions).others:
             raise UnreachableError(
                 f'The lengths {tuple(positions)} m fit more than one pose; set initial_positions '
-                f'within {FAR:g} m of them, or drive the legs home.'
+                f'within {FAR:g} m of them, or drive the legs home.',
+                'more than one assembly',
             )
-        return self.held(pose)
+        return self.assembly_at(pose)
 
     def _proved(self, positions: Sequence[float], near: Pose, name: str) -> Pose:
         solution = self.forward_kinematics.solve(positions, near)
         if solution.pose is None or solution.status != Status.CONVERGED:
             raise UnreachableError(
                 f'The lengths {tuple(positions)} m have no pose that {name} is proved to lead to '
-                f'({solution.status.name}).'
+                f'({solution.status.name}); check the leg readings.',
+                'no proved assembly',
             )
         return solution.pose

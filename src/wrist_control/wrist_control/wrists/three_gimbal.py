@@ -18,7 +18,8 @@ from wrist_control.rotations import (
     nearest_turn,
     product,
 )
-from wrist_control.wrists.wrist import Joint, Positions, Wrist
+from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.wrist import Positions, Rates, Wrist
 
 # Below this |cos θ| the quotient c23 / c33 is round-off: φ is kept instead of flipping by 180°.
 LOCK = 1e-9
@@ -67,7 +68,7 @@ class ThreeGimbal(Wrist):
         sp, cp = math.sin(phi), math.cos(phi)
         return np.array([[-s, 0.0, 1.0], [c * sp, cp, 0.0], [c * cp, -sp, 0.0]])
 
-    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Positions:
+    def rates(self, positions: Sequence[float], twist: Sequence[float]) -> Rates:
         """Return ψ̇, θ̇, φ̇. [Barker1986], figs. 1(b) and 2(g)."""
         _, theta, phi = positions
         p, q, r = twist

@@ -1,13 +1,13 @@
-"""The newest message of a stream that was stamped before now: the same answer in every run."""
+"""The latest message of a stream that was stamped before now: the same answer in every run."""
 
 from __future__ import annotations
 
 from typing import Generic, TypeVar
 
-Item = TypeVar('Item')
+Message = TypeVar('Message')
 
 
-class Newest(Generic[Item]):
+class LatestMessage(Generic[Message]):
     """Holds back a message until time has passed its stamp, or until a newer one arrives.
 
     Two processes that are woken by the same tick of a simulated clock race each other. With this
@@ -17,31 +17,31 @@ class Newest(Generic[Item]):
 
     def __init__(self) -> None:
         """Start with no message."""
-        self._counting: Item | None = None
-        self._waiting: Item | None = None
+        self._counting: Message | None = None
+        self._waiting: Message | None = None
         self._stamp: float | None = None
 
-    def put(self, stamp: float | None, item: Item) -> None:
+    def put(self, stamp: float | None, message: Message) -> None:
         """Take a message.
 
         Args:
             stamp: s, None when it has none and so counts at once.
-            item: The message.
+            message: The message.
         """
         if self._waiting is not None:
             self._counting = self._waiting
-        self._stamp, self._waiting = stamp, item
+        self._stamp, self._waiting = stamp, message
 
-    def at(self, now: float) -> Item | None:
-        """Return the newest message that counts now, None when there is none yet.
+    def at(self, stamp_time: float) -> Message | None:
+        """Return the latest message that counts now, None when there is none yet.
 
         Args:
-            now: s, on the clock of the stamps.
+            stamp_time: Now, s, on the clock of the stamps.
         """
-        if self._waiting is not None and (self._stamp is None or self._stamp < now):
+        if self._waiting is not None and (self._stamp is None or self._stamp < stamp_time):
             self._counting, self._waiting = self._waiting, None
         return self._counting
 
-    def forget(self) -> None:
+    def clear(self) -> None:
         """Drop every message."""
         self._counting = self._waiting = None

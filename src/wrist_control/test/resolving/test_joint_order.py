@@ -1,0 +1,39 @@
+"""Named values in joint order: one rule for commands, readings and rates."""
+
+import math
+
+import pytest
+
+from wrist_control.errors import RefusedError
+from wrist_control.resolving.joint_order import in_joint_order
+
+JOINTS = ['psi', 'theta', 'phi']
+
+
+def test_values_are_put_in_order_among_other_joints():
+    names = ['elbow', 'phi', 'psi', 'elbow', 'theta']
+    assert in_joint_order(JOINTS, names, [9.0, 3.0, 1.0, 9.0, 2.0]) == (1.0, 2.0, 3.0)
+
+
+def test_values_need_not_be_finite():
+    assert in_joint_order(['psi'], ['psi'], [math.inf]) == (math.inf,)
+
+
+@pytest.mark.parametrize(
+    ('names', 'values', 'reason', 'sentence'),
+    [
+        (JOINTS, (1.0, 1.0), 'wrong length', '3 joint names and 2 values; send one value for ea'),
+        (
+            JOINTS[:2],
+            (1.0, 1.0),
+            'wrong joint names',
+            'phi is named 0 times; name each of psi, theta',
+        ),
+        ((), (), 'wrong joint names', 'psi is named 0 times'),
+        ((*JOINTS, 'psi'), (1.0,) * 4, 'wrong joint names', 'psi is named 2 times'),
+    ],
+)
+def test_missing_and_repeated_joints_are_refused(names, values, reason, sentence):
+    with pytest.raises(RefusedError, match=sentence) as refused:
+        in_joint_order(JOINTS, names, values)
+    assert refused.value.reason == reason

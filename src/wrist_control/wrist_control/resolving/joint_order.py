@@ -1,0 +1,38 @@
+"""Named joint values in the order of a wrist's joints, whatever else is among them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from wrist_control.errors import RefusedError
+
+
+def in_joint_order(
+    joints: Sequence[str], names: Sequence[str], values: Sequence[float]
+) -> tuple[float, ...]:
+    """Return the values of some joints in their own order.
+
+    Joints that are not asked for are left alone: one topic may carry the whole robot.
+
+    Args:
+        joints: Names of the joints that are asked for, in order.
+        names: Names as they came, in any order.
+        values: One for each name; no need to be finite.
+
+    Raises:
+        RefusedError: Not one value for each name, or a joint that is missing or named twice.
+    """
+    if len(names) != len(values):
+        raise RefusedError(
+            'wrong length',
+            f'There are {len(names)} joint names and {len(values)} values; send one value for '
+            'each name.',
+        )
+    index_of = {name: index for index, name in enumerate(names)}
+    for joint in joints:
+        if (times := names.count(joint)) != 1:
+            raise RefusedError(
+                'wrong joint names',
+                f'{joint} is named {times} times; name each of {", ".join(joints)} once.',
+            )
+    return tuple(float(values[index_of[joint]]) for joint in joints)
