@@ -19,8 +19,6 @@ from wrist_control.wrists.wrist import Positions, SteeringState, Wrist
 # Table 4.1 in numbers: [Canfield1997], 4.6.1, and a ratio where a joint is ten times too fast.
 LEAST_DETERMINANT = 0.5
 LARGEST_RATIO = 10.0
-# The hand can turn about an axis when the joints make all but this share of the turn.
-POSSIBLE = 1e-6
 
 
 def principal(jacobian: np.ndarray) -> np.ndarray:
@@ -117,24 +115,14 @@ def dexterous_measure(values: np.ndarray, weights: np.ndarray | None = None) -> 
     return Uniformity(float(kept.min()), float(kept.max()), mean, math.sqrt(square / divisor))
 
 
-def free_axes(wrist: Wrist) -> list[int]:
-    """Return which of the hand's axes x, y, z (0 to 2) it can turn about at home, each alone.
-
-    A pointer has x and y: its roll is forced, and no measure of what the operator commands.
-    """
-    jacobian = wrist.jacobian(wrist.home)[-3:]
-    missing = np.abs(np.eye(3) - jacobian @ np.linalg.pinv(jacobian)).max(axis=0)
-    return [axis for axis in range(3) if missing[axis] < POSSIBLE]
-
-
 def jacobians(wrist: Wrist, positions: Sequence[Positions]) -> np.ndarray:
-    """Return the rates about the hand's free axes per joint rate, shape (n, axes, joints).
+    """Return the rates about the hand's followed axes per joint rate, shape (n, axes, joints).
 
     Args:
         wrist: The mechanism.
         positions: Joint positions as the wrist gave them, rad or m.
     """
-    rows = [axis - 3 for axis in free_axes(wrist)]
+    rows = [axis - 3 for axis in wrist.followed_axes]
     found = np.empty((len(positions), len(rows), len(wrist.joints)))
     for place, position in enumerate(positions):
         found[place] = wrist.jacobian(position)[rows]
@@ -203,7 +191,7 @@ def disc(
     Returns:
         Shape (headings, angles, axes, joints); NaN outside the workspace.
     """
-    shape = (len(headings), len(angles), len(free_axes(wrist)), len(wrist.joints))
+    shape = (len(headings), len(angles), len(wrist.followed_axes), len(wrist.joints))
     found = np.full(shape, np.nan)
     for row, heading in enumerate(headings):
         axis = [0.0, 0.0, 0.0]

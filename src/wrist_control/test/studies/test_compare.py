@@ -15,7 +15,6 @@ from wrist_control.studies.comparison import (
     approach_axis,
     compare,
     first_stop,
-    followed,
     path_error,
 )
 
@@ -47,12 +46,6 @@ def test_the_comparison_is_the_same_each_time():
     assert len(performances) == 4
     again = compare(['three_gimbal', 'carpal'], [SHORT])
     assert rows(again) == rows(performances[:2])
-
-
-def test_a_pointer_is_asked_what_it_can_follow():
-    assert followed(make_wrist('three_gimbal')) == (True, True, True)
-    assert followed(make_wrist('stewart')) == (True, True, True)
-    assert followed(make_wrist('carpal')) == (True, True, False)
 
 
 def test_the_approach_axis_leads_away_from_the_wrist():

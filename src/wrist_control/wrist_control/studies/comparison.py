@@ -77,24 +77,15 @@ def compare(
     return [_performance(make_wrist(name), name, maneuver) for name, maneuver in tracked(pairs)]
 
 
-def followed(wrist: Wrist) -> tuple[bool, bool, bool]:
-    """Return which of p, q and r the hand follows, asked at home."""
-    jacobian = wrist.jacobian(wrist.home)
-    twists = np.eye(wrist.twist_size)[-3:]
-    made = [jacobian[-3:] @ wrist.rates(wrist.home, tuple(twist)) for twist in twists]
-    p, q, r = (abs(made[axis][axis] - 1.0) < 1e-6 for axis in range(3))
-    return bool(p), bool(q), bool(r)
-
-
 def approach_axis(wrist: Wrist) -> int:
     """Return the hand axis (0, 1, 2 for x, y, z) that points away from the wrist.
 
     It is the rotation axis that a pointer cannot follow, or else the axis that leads from the
     forearm to the hand, or else x.
     """
-    follows = followed(wrist)
-    if not all(follows):
-        return follows.index(False)
+    unfollowed = {0, 1, 2} - set(wrist.followed_axes)
+    if unfollowed:
+        return unfollowed.pop()
     away = np.abs(wrist.forward(wrist.home).position)
     return int(np.argmax(away)) if away.any() else 0
 
@@ -115,7 +106,7 @@ def path_error(flight: Flight) -> float:
     rotation cannot be followed the one that was made is taken, and the angle is that between the
     pointing axes.
     """
-    follows = followed(flight.wrist)
+    follows = tuple(axis in flight.wrist.followed_axes for axis in range(3))
     dt = flight.time[1] - flight.time[0]
     wanted = flight.scale_factor[:, None] * flight.command
     wanted = np.where(follows, wanted, flight.achieved[:, -3:])
@@ -128,7 +119,7 @@ def path_error(flight: Flight) -> float:
     return largest
 
 
-def _seen(away: Vector, follows: tuple[bool, bool, bool]) -> float:
+def _seen(away: Vector, follows: tuple[bool, ...]) -> float:
     """Return the part of a small turn that moves what the wrist is there to point."""
     return math.hypot(*(x for x, follow in zip(away, follows, strict=True) if follow))
 
@@ -144,7 +135,7 @@ def _performance(wrist: Wrist, name: str, maneuver: Maneuver) -> Performance:
     return Performance(
         wrist=name,
         maneuver=maneuver.name,
-        follows_roll=all(followed(wrist)),
+        follows_roll=len(wrist.followed_axes) == 3,
         time_lost=float(flight.time_lost[-1]),
         peak_rate=float((np.abs(flight.joint_rates) / limits).max()),
         free_peak_rate=float((np.abs(free.joint_rates) / limits).max()),

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from PIL import Image
 
-from wrist_control.dexterity import determinant, disc, free_axes, principal, singular_ratio, sweep
+from wrist_control.dexterity import determinant, disc, principal, singular_ratio, sweep
 from wrist_control.studies.canfield_closure import closure_edge, singular_edge
 from wrist_control.studies.canfield_pointing import (
     Pointer,
@@ -115,8 +115,8 @@ def pointing(path: Path, pointers: Sequence[Pointer], readings: Sequence[Reading
 
 
 def workspace(path: Path, name: str, wrist: Wrist, headings: int = 90, turns: int = 60) -> None:
-    """Draw the two measures over turns from home about every axis in the hand's free planes."""
-    free = free_axes(wrist)
+    """Draw the two measures over turns from home about axes between two that are followed."""
+    free = wrist.followed_axes
     planes = [plane for plane in ((0, 1), (1, 2), (2, 0)) if set(plane) <= set(free)]
     figure = Figure(figsize=(3.6 * len(planes), 7.0), layout='constrained')
     panels = figure.subplots(2, len(planes), subplot_kw={'projection': 'polar'}, squeeze=False)

@@ -67,6 +67,7 @@ class Carpal(Wrist):
         Joint('theta_2'),
         Joint('theta_3'),
     )
+    followed_axes: ClassVar[tuple[int, ...]] = (0, 1)
 
     def __post_init__(self) -> None:
         """Check that the legs are long enough for the plunge."""
@@ -185,6 +186,12 @@ class Carpal(Wrist):
     def margin(self, positions: Sequence[float]) -> float:
         """Return the smallest of what is left of the legs, of the tilt and of the midplane."""
         return min(self._distances(positions))
+
+    def lost_axis(self, positions: Sequence[float]) -> Vector:
+        """Return the tilt that needs the fastest joints, the plunge held, in hand axes."""
+        about_x, about_y = (self.rates(positions, axis) for axis in ((1.0, 0.0), (0.0, 1.0)))
+        x, y = np.linalg.svd(np.array([about_x, about_y]).T)[2][0]
+        return (float(x), float(y), 0.0)
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
         """Return what is left to the workspace edge, in sines of angles."""

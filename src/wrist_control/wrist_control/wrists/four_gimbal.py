@@ -13,7 +13,7 @@ from wrist_control.rotations import Pose, Vector, about_z, product
 from wrist_control.wrists.dimension import dimension
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.three_gimbal import ThreeGimbal
-from wrist_control.wrists.wrist import Positions, Rates, SteeringState, Wrist, hardest_rotation
+from wrist_control.wrists.wrist import Positions, Rates, SteeringState, Wrist
 
 # The gimbals under the fourth one.
 INNER = ThreeGimbal()
@@ -93,7 +93,7 @@ class FourGimbal(Wrist):
 
     def lost_axis(self, positions: Sequence[float]) -> Vector:
         """Return the rotation that ψ, θ and φ find hardest to make, in hand axes."""
-        return hardest_rotation(self.jacobian(positions)[:, :3])
+        return self.hardest_rotation(self.jacobian(positions)[:, :3])
 
     def _alpha_rate(self, positions: Sequence[float]) -> tuple[float, float]:
         """Return α̇ by Barker's law, rad/s, and the share of it that the joints have space for.

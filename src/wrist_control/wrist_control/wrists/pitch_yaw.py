@@ -37,6 +37,7 @@ class PitchYaw(Wrist):
     """
 
     default_joints: ClassVar[tuple[Joint, ...]] = (Joint('theta_1'), Joint('theta_2'))
+    followed_axes: ClassVar[tuple[int, ...]] = (0, 1)
 
     def forward(self, positions: Sequence[float]) -> Pose:
         """Return the hand's pose, C = X(θ1) Y(θ2): its z axis is N of [Canfield1997], (4.30)."""

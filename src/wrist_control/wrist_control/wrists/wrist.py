@@ -96,12 +96,17 @@ class Wrist(ABC):
 
     Attributes:
         joints: The driven joints, outermost first, with their limits.
+        default_joints: The same, without a caller's limits.
+        twist_size: 3, or 6 for a wrist that also translates on command.
+        followed_axes: The hand axes that it turns about on command, 0 to 2 for x, y, z. A pointer
+            has (0, 1): its roll is what the mechanism forces.
     """
 
     joints: tuple[Joint, ...] = field(default=(), kw_only=True)
 
     default_joints: ClassVar[tuple[Joint, ...]] = ()
     twist_size: ClassVar[Literal[3, 6]] = 3
+    followed_axes: ClassVar[tuple[int, ...]] = (0, 1, 2)
 
     def __post_init__(self) -> None:
         """Check every dimension and settle the joints.
@@ -217,8 +222,20 @@ class Wrist(ABC):
         return tuple(positions)
 
     def lost_axis(self, positions: Sequence[float]) -> Vector:
-        """Return the rotation that is hardest to make, a unit vector in hand axes."""
-        return hardest_rotation(self.jacobian(positions)[-3:])
+        """Return the rotation on command that is hardest to make, a unit vector in hand axes."""
+        return self.hardest_rotation(self.jacobian(positions)[-3:])
+
+    def hardest_rotation(self, jacobian: np.ndarray) -> Vector:
+        """Return the direction of the least singular value among the axes that are followed.
+
+        Args:
+            jacobian: (p, q, r) per rate of the joints that the command moves, shape (3, joints).
+        """
+        axes = list(self.followed_axes)
+        found = np.zeros(3)
+        found[axes] = np.linalg.svd(jacobian[axes])[0][:, -1]
+        x, y, z = found.tolist()
+        return (x, y, z)
 
     def with_limits(
         self: SomeWrist,
@@ -233,9 +250,3 @@ class Wrist(ABC):
                 that is not above 0, or limits that cross.
         """
         return replace(self, joints=joint_limits.with_limits(self.joints, rates, lower, upper))
-
-
-def hardest_rotation(jacobian: np.ndarray) -> Vector:
-    """Return the unit vector of the least singular value of (p, q, r) per joint rate."""
-    x, y, z = np.linalg.svd(jacobian)[0][:, -1]
-    return (float(x), float(y), float(z))
