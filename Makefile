@@ -45,6 +45,10 @@ compare: setup  ## fly every wrist through the same maneuvers and compare them
 dexterity: setup  ## map where each wrist can turn the hand well
 	@./env python3 -m wrist_control.studies.dexterity_maps
 
+.PHONY: docs
+docs: setup  ## write what docs/ takes from the code: docs/wrists.md
+	@./env python3 scripts/wrist_table.py
+
 .PHONY: clean
 clean:  ## remove everything that setup made; figures in out/ stay
 	@rm -rf .venv build install log .setup.lock .mypy_cache .pytest_cache .ruff_cache

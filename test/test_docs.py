@@ -16,6 +16,7 @@ from wrist_control.wrists import WRISTS
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / 'README.md').read_text()
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
+PARAMETERS = INTERFACES + (ROOT / 'docs' / 'wrists.md').read_text()
 
 
 def blocks(language):
@@ -66,14 +67,21 @@ def test_every_link_and_picture_of_a_document_is_there(document):
 
 
 @pytest.mark.parametrize('wrist', WRISTS)
-def test_every_parameter_of_a_resolver_is_in_the_interfaces_document(wrist):
-    missing = [spec.name for spec in specs(wrist) if f'`{spec.name}`' not in INTERFACES]
+def test_every_parameter_of_a_resolver_is_in_the_documents(wrist):
+    missing = [spec.name for spec in specs(wrist) if f'`{spec.name}`' not in PARAMETERS]
     assert missing == []
 
 
+def test_the_document_of_the_wrists_is_what_the_code_says(tmp_path):
+    written = tmp_path / 'wrists.md'
+    script = ROOT / 'scripts' / 'wrist_table.py'
+    subprocess.run([sys.executable, str(script), str(written)], check=True, timeout=60.0)
+    assert written.read_text() == (ROOT / 'docs' / 'wrists.md').read_text(), 'run `make docs`'
+
+
 @pytest.mark.parametrize('node', [operator, joint_simulator, stewart_forward_kinematics])
-def test_every_other_parameter_is_in_the_interfaces_document(node):
-    missing = [spec.name for spec in node.SPECS if f'`{spec.name}`' not in INTERFACES]
+def test_every_other_parameter_is_in_the_documents(node):
+    missing = [spec.name for spec in node.SPECS if f'`{spec.name}`' not in PARAMETERS]
     assert missing == []
 
 

@@ -131,6 +131,7 @@ def test_the_plan_shows_every_module_where_it_is():
         for _, room, modules in ROW.findall(PLAN)
         for module in re.findall(r'`(\w+)`', modules)
     }
+    planned |= {f'{FACE}.wrists.{name}' for name in wrist_control.WRISTS}
     planned |= {FACE, *(f'{FACE}.{room}' for room in FLOORS if room != FACE)}
     assert planned == set(MODULES)
 
