@@ -11,6 +11,7 @@ import numpy as np
 
 from wrist_control.errors import InvalidValueError
 from wrist_control.operating.maneuvers import ZERO_RATES, Maneuver, make_maneuver
+from wrist_control.operating.pilot import ManeuverClock
 from wrist_control.resolving import State, Step, resting, start, step
 from wrist_control.rotations import Vector, to_forearm
 from wrist_control.units import INCH
@@ -120,20 +121,18 @@ def _rows(
 ) -> tuple[list[Sample], bool]:
     rows: list[Sample] = []
     linear = (0.0,) * (wrist.twist_size - 3)
-    held_back = 0.0
+    clock = ManeuverClock(maneuver, dt)
     while state.time_lost <= patience:
-        waited = held_back + state.time_lost if maneuver.waits else 0.0
-        time = len(rows) * dt - waited
-        order = maneuver.order(time, dt)
-        made = step(wrist, state, (*linear, *order.rates), dt)
-        rows.append((state, order.rates, made))
-        if time >= maneuver.duration - 1e-9:
+        order = clock.order(len(rows) * dt, state.time_lost)
+        taken = step(wrist, state, (*linear, *order.rates), dt)
+        rows.append((state, order.rates, taken))
+        if clock.done:
             return rows, True
-        lost = made.state.time_lost - state.time_lost
-        held_back += (1.0 - order.share) * (dt - lost)  # so that the clock advances by F share dt
-        state = made.state
+        lost = taken.state.time_lost - state.time_lost
+        clock.follow(order, dt - lost)
+        state = taken.state
         if progress is not None:
-            progress(min(1.0, time / maneuver.duration))
+            progress(min(1.0, clock.time / maneuver.duration))
     rows.append((state, ZERO_RATES, resting(wrist, state)))
     return rows, False
 
@@ -147,22 +146,22 @@ def _flight(
     completed: bool,
 ) -> Flight:
     states = [state for state, _, _ in rows]
-    steps = [made for _, _, made in rows]
+    steps = [taken for _, _, taken in rows]
     position = np.array([state.pose.position for state in states])
     return Flight(
         wrist=wrist,
         maneuver=maneuver,
         time=dt * np.arange(len(rows)),
         command=np.array([command for _, command, _ in rows]),
-        achieved=np.array([made.achieved for made in steps]),
+        achieved=np.array([taken.achieved for taken in steps]),
         joint_positions=np.array([state.positions for state in states]),
-        joint_rates=np.array([made.joint_rates for made in steps]),
+        joint_rates=np.array([taken.joint_rates for taken in steps]),
         hand_rotation=np.array([state.pose.rotation for state in states]),
         hand_position=position,
         tip=position + np.array([to_forearm(state.pose.quaternion, probe) for state in states]),
-        scale_factor=np.array([made.scale_factor for made in steps]),
+        scale_factor=np.array([taken.scale_factor for taken in steps]),
         time_lost=np.array([state.time_lost for state in states]),
-        margin=np.array([made.margin for made in steps]),
-        limited=tuple(tuple(limit.joint for limit in made.limits) for made in steps),
+        margin=np.array([taken.margin for taken in steps]),
+        limited=tuple(tuple(limit.joint for limit in taken.limits) for taken in steps),
         completed=completed,
     )

@@ -7,13 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wrist_control import InvalidValueError, fly, make_maneuver
+from wrist_control import InvalidValueError, make_maneuver
 from wrist_control.operating.maneuvers import (
     BARKER_SPEED,
     MANEUVERS,
     Maneuver,
     Order,
-    Pilot,
     Segment,
     stick,
     turn,
@@ -144,63 +143,3 @@ def test_an_unknown_maneuver_is_refused_and_told_which_there_are():
 def test_a_speed_that_moves_nothing_or_everything_is_refused(speed):
     with pytest.raises(InvalidValueError, match=r'speed is .*; it must be finite and above 0'):
         make_maneuver('basic_test', speed)
-
-
-# The pilot, who flies a maneuver tick by tick and only hears how much time is being lost
-
-PITCH = Maneuver('pitch', (turn(1, 0.3, BARKER_SPEED),))
-
-
-def piloted(maneuver, limit, delay=0, rate=32.0, began=0.0, lost_before=0.0):
-    """Return what a pilot asks of a hand that is no faster than a limit, and how far it turns.
-
-    Args:
-        maneuver: What to fly.
-        limit: The fastest that the hand turns, rad/s.
-        delay: Ticks after which the pilot hears of the time that was lost.
-        rate: Ticks per second.
-        began: The time at the first tick, s.
-        lost_before: The time lost before that, s.
-    """
-    pilot, dt, angle = Pilot(maneuver, 1.0 / rate), 1.0 / rate, 0.0
-    asked, lost = [], [lost_before] * (delay + 1)
-    while not (pilot.done and not any(asked[-2 - delay :])):
-        speed = math.hypot(*pilot.rates(began + len(asked) * dt, lost[-1 - delay]))
-        asked.append(speed)
-        made = min(speed, limit)
-        angle += made * dt
-        lost.append(lost[-1] + (dt * (1.0 - made / speed) if speed else 0.0))
-        assert len(asked) < 2000, 'the maneuver never ends'
-    return asked, angle
-
-
-@pytest.mark.parametrize('rate', [7.0, 32.0, 100.0])
-def test_a_pilot_asks_a_hand_that_follows_for_what_a_flight_asks(rate):
-    asked, angle = piloted(PITCH, 2.0, rate=rate, began=5.0, lost_before=3.0)
-    assert angle == pytest.approx(0.3, abs=1e-8)
-    flight = fly('three_gimbal', PITCH, rate)
-    shorter = min(len(asked), len(flight.time))
-    np.testing.assert_allclose(asked[:shorter], flight.command[:shorter, 1], atol=1e-6)
-    assert not any(asked[shorter:])
-
-
-@pytest.mark.parametrize('delay', [0, 1, 2])
-@pytest.mark.parametrize('factor', [0.05, 0.1, 0.2, 0.24, 0.26, 0.3, 0.5, 0.8])
-def test_a_pilot_waits_for_a_slow_hand_to_within_the_steps_it_hears_late(factor, delay):
-    _, angle = piloted(PITCH, factor * BARKER_SPEED, delay)
-    assert angle == pytest.approx(0.3, abs=(delay + 1) * BARKER_SPEED * H)
-
-
-def test_a_pilot_who_does_not_wait_ends_in_time():
-    hasty = Maneuver('hasty', PITCH.segments, waits=False)
-    asked, _ = piloted(hasty, 0.01)
-    assert len(asked) * H == pytest.approx(hasty.duration, abs=3 * H)
-
-
-def test_a_reset_of_time_lost_does_not_set_a_pilot_back():
-    pilot = Pilot(TWO, 0.1)
-    assert pilot.rates(0.0, 5.0) == (1.0, 0.0, 0.0)
-    assert pilot.rates(0.4, 0.0) == (0.0, 2.0, 0.0)
-    assert not pilot.done
-    pilot.rates(0.6, 0.0)
-    assert pilot.done

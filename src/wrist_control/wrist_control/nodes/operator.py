@@ -18,9 +18,9 @@ from wrist_control.operating.maneuvers import (
     BARKER_SPEED,
     MANEUVERS,
     ZERO_RATES,
-    Pilot,
     make_maneuver,
 )
+from wrist_control.operating.pilot import Pilot
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics

@@ -107,8 +107,9 @@ class StewartForwardKinematics(Node):
         named = [
             joint._replace(name=values['joint_prefix'] + joint.name) for joint in wrist.joints
         ]
-        made: Any = replace(wrist, joints=tuple(named))
-        return made
+        platform = replace(wrist, joints=tuple(named))
+        assert isinstance(platform, Stewart)
+        return platform
 
     def _on_joint_states(self, message: JointState) -> None:
         stamp = message.header.stamp

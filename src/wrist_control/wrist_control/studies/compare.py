@@ -72,13 +72,13 @@ def caption() -> str:
 
 def table(performances: Sequence[Performance]) -> Table:
     """Return the comparison as a table for a terminal."""
-    made = Table(title='Every wrist, the same maneuvers', caption=caption())
+    found = Table(title='Every wrist, the same maneuvers', caption=caption())
     for number, heading in enumerate(HEADINGS):
-        made.add_column(heading, justify='right' if 2 <= number <= 6 else 'left')
+        found.add_column(heading, justify='right' if 2 <= number <= 6 else 'left')
     shown = rows(performances)
     for row, following in zip(shown, [*shown[1:], ('',)], strict=True):
-        made.add_row(*row, end_section=row[0] != following[0])
-    return made
+        found.add_row(*row, end_section=row[0] != following[0])
+    return found
 
 
 def markdown(performances: Sequence[Performance]) -> str:
