@@ -140,7 +140,7 @@ def test_position_is_flown_as_well_as_orientation():
     np.testing.assert_allclose(speeds, expected, atol=2e-5)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.floats(-3.1, 3.1))
 def test_past_the_hemisphere_it_stops_and_comes_back(azimuth):
     state = start(WRIST)

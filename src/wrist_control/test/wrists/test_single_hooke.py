@@ -51,7 +51,7 @@ def test_the_room_is_that_of_a_cone_about_the_forearm(positions):
     assert cone.remaining == pytest.approx(cos_bend - math.cos(math.radians(45.0)), abs=1e-12)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(st.floats(-3.1, 3.1), commands)
 def test_the_hand_never_leaves_the_cone_and_can_always_come_back(azimuth, push):
     assume(max(map(abs, push)) > 0.1)

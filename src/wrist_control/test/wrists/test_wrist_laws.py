@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wrist_control import WRISTS, make_wrist
-from wrist_control.resolving import SINGULAR_MARGIN, start, step
+from wrist_control.resolving import start, step
 from wrist_control.rotations import rates_between
 
 DT = 0.05
@@ -18,7 +18,7 @@ SPEED = {'revolute': 1.0, 'prismatic': 0.05}
 REACH = 0.1  # m, so that random linear rates fit random angular ones
 
 every_wrist = pytest.mark.parametrize('wrist', [make_wrist(name) for name in WRISTS], ids=WRISTS)
-few = settings(max_examples=15, deadline=None)
+few = settings(max_examples=15)
 commands = st.lists(st.tuples(*(st.floats(-1.5, 1.5),) * 6), min_size=1, max_size=8)
 
 
@@ -70,7 +70,7 @@ def twist_between(wrist, before, after, dt):
 @every_wrist
 def test_home_is_a_place_to_start_from(wrist):
     state = start(wrist)
-    assert wrist.margin(state.positions) >= SINGULAR_MARGIN
+    assert wrist.margin(state.positions) > 0.01
     assert all(clearance.remaining >= 0.0 for clearance in wrist.clearances(state.positions))
 
 
