@@ -2,7 +2,6 @@
 
 import math
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -15,9 +14,7 @@ from wrist_control.resolving.limits import (
     rate_overruns,
     smallest_share,
 )
-from wrist_control.rotations import IDENTITY, Pose
 from wrist_control.wrists import Clearance, Joint, make_wrist
-from wrist_control.wrists.wrist import Wrist
 
 # What counts as kept: round-off, not motion. Relative for rates, rad or m for positions.
 KEPT = 1e-9
@@ -146,31 +143,11 @@ def test_outside_a_clearance_only_the_way_back_is_open(horizon):
     assert clearance_overruns(outside, outside, 0.1) == []
 
 
-class Fenced(Wrist):
-    """One joint that may turn by 1 rad, fenced at 0.5 rad."""
+def test_limits_of_the_joints_and_of_the_whole_wrist_are_found_together(rail):
+    class Fenced(rail):
+        default_joints = bounded()
+        fence = 0.5
 
-    default_joints = (Joint('theta', lower=-1.0, upper=1.0),)
-
-    def clearances(self, positions):
-        return (Clearance('fence', 0.5 - positions[0]),)
-
-    def forward(self, positions):
-        return Pose(IDENTITY)
-
-    def inverse(self, pose, near):
-        return tuple(near)
-
-    def jacobian(self, positions):
-        return np.zeros((3, 1))
-
-    def rates(self, positions, twist):
-        return (0.0,)
-
-    def margin(self, positions):
-        return 1.0
-
-
-def test_limits_of_the_joints_and_of_the_whole_wrist_are_found_together():
     found = overruns(Fenced(), (0.0,), (2.0,), 0.1)
     assert [(limit.joint, limit.share) for limit in found] == [('theta', 0.5), ('fence', 0.25)]
     assert smallest_share(found) == 0.25
