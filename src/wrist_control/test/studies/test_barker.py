@@ -21,7 +21,6 @@ H = 1.0 / 32.0
 EPSILON = 0.001  # ε0: nearer to lock than this, steps are made in the joints
 LENGTH = PROBE[0]
 LOCKED = 90  # the step at which the probe points down: 1° for each
-GIMBALS = ('psi', 'theta', 'phi')
 
 
 @pytest.fixture(scope='module')
