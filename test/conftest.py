@@ -5,7 +5,9 @@ from __future__ import annotations
 import itertools
 import os
 import time
+import uuid
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -17,6 +19,8 @@ from rclpy.qos import QoSProfile
 from wrist_control.graph.lockstep import Lockstep
 
 DOMAINS_PER_WORKER = 45
+# Set to another value in each test, so that its processes are told from all others.
+MARK = 'WRIST_CONTROL_TEST'
 _count = itertools.count()
 
 
@@ -128,5 +132,23 @@ def until_ready() -> Callable[[Any], None]:
 
 @pytest.fixture
 def process_environment() -> dict[str, str]:
-    """The environment for a test's own processes, in a domain of their own."""
-    return {**os.environ, 'ROS_DOMAIN_ID': str(next_domain())}
+    """The environment for a test's own processes: a domain of their own, and their mark."""
+    return {**os.environ, 'ROS_DOMAIN_ID': str(next_domain()), MARK: uuid.uuid4().hex}
+
+
+@pytest.fixture
+def own_processes(process_environment: dict[str, str]) -> Callable[[], list[str]]:
+    """List the command lines of all that this test has started, and of nothing else."""
+    mark = f'{MARK}={process_environment[MARK]}'.encode()
+
+    def listed() -> list[str]:
+        found = []
+        for folder in Path('/proc').glob('[0-9]*'):
+            try:
+                if mark in (folder / 'environ').read_bytes().split(b'\0'):
+                    found.append((folder / 'cmdline').read_text())
+            except OSError:
+                continue  # it has ended, or is somebody else's
+        return found
+
+    return listed

@@ -78,19 +78,6 @@ def test_every_wrist_has_a_ready_parameter_file_that_its_nodes_accept(
         assert 'Traceback' not in said
 
 
-def processes_of(domain):
-    """Return the command lines of every process in a ROS domain but this one."""
-    found = []
-    for folder in Path('/proc').glob('[0-9]*'):
-        try:
-            environment = (folder / 'environ').read_bytes()
-            if f'ROS_DOMAIN_ID={domain}\0'.encode() in environment:
-                found.append((folder / 'cmdline').read_text())
-        except OSError:
-            continue
-    return found
-
-
 def demo(environment, *arguments):
     command = ['python3', '-m', 'wrist_control.demo', *arguments]
     return subprocess.Popen(
@@ -98,7 +85,9 @@ def demo(environment, *arguments):
     )
 
 
-def test_the_demo_draws_three_figures_and_says_paper_and_measured(process_environment, tmp_path):
+def test_the_demo_draws_three_figures_and_says_paper_and_measured(
+    process_environment, own_processes, tmp_path
+):
     process = demo(process_environment, '--speed', '0', '--out', str(tmp_path))
     said, _ = process.communicate(timeout=100.0)
     assert process.returncode == 0
@@ -106,21 +95,20 @@ def test_the_demo_draws_three_figures_and_says_paper_and_measured(process_enviro
         assert expected in said
     for name in ('fig6.png', 'fig7.png', 'fig8.png'):
         assert (tmp_path / name).read_bytes().startswith(b'\x89PNG')
-    assert processes_of(process_environment['ROS_DOMAIN_ID']) == []
+    assert own_processes() == []
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_the_demo_leaves_no_process_behind_when_it_is_stopped(
-    process_environment, tmp_path, number
+    process_environment, own_processes, tmp_path, number
 ):
     process = demo(process_environment, '--speed', '0.2', '--out', str(tmp_path))
-    domain = process_environment['ROS_DOMAIN_ID']
     end = time.monotonic() + 60.0
-    while len(processes_of(domain)) < 4 and time.monotonic() < end:
+    while len(own_processes()) < 4 and time.monotonic() < end:
         time.sleep(0.2)
-    assert len(processes_of(domain)) >= 4
+    assert len(own_processes()) >= 4
     time.sleep(1.0)
     os.kill(process.pid, number)
     process.communicate(timeout=30.0)
     assert process.returncode in (130, 143)
-    assert processes_of(domain) == []
+    assert own_processes() == []

@@ -1,6 +1,8 @@
 """Every wrist of the suite as a resolver node: a Twist in, joint commands out, by topic only."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +13,8 @@ from visualization_msgs.msg import MarkerArray
 
 from wrist_control import WRISTS, make_wrist
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.resolving import LimitKind
+from wrist_control.resolving.report import WristState
 from wrist_interfaces.msg import WristStatus
 
 # The contract: other programs talk to these joints, outermost first.
@@ -27,6 +31,7 @@ CONTRACT = {
     'stewart': 'leg_1 leg_2 leg_3 leg_4 leg_5 leg_6',
 }
 PITCH = 0.1
+MESSAGES = Path(__file__).resolve().parents[1] / 'src' / 'wrist_interfaces' / 'msg'
 
 
 def pitching():
@@ -38,6 +43,15 @@ def pitching():
 @pytest.mark.parametrize('wrist', CONTRACT)
 def test_every_wrist_of_the_contract_has_the_joints_of_the_contract(wrist):
     assert [joint.name for joint in make_wrist(wrist).joints] == CONTRACT[wrist].split()
+
+
+@pytest.mark.parametrize(
+    ('enumeration', 'message'), [(WristState, 'WristStatus'), (LimitKind, 'LimitAtWork')]
+)
+def test_the_librarys_states_and_limits_are_numbered_as_in_the_messages(enumeration, message):
+    text = (MESSAGES / f'{message}.msg').read_text(encoding='utf-8')
+    constants = {name: int(value) for name, value in re.findall(r'^uint8 (\w+)=(\d+)', text, re.M)}
+    assert constants == {one.name: one.value for one in enumeration}
 
 
 @pytest.mark.parametrize('wrist', WRISTS)

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import time
 
 import pytest
 from geometry_msgs.msg import Twist
@@ -13,7 +14,24 @@ from wrist_control.nodes.resolver import Resolver
 from wrist_interfaces.msg import WristStatus
 
 NODE = 'three_gimbal_resolver'
+NAMES = ['psi', 'theta', 'phi']
 LIMIT = 1.0
+
+
+def pitch_until(graph, publisher, condition):
+    """Command a pitch of 0.8 rad/s, again and again, until something is true."""
+    twist = Twist()
+    twist.angular.y = 0.8
+
+    def commanded():
+        publisher.publish(twist)
+        return condition()
+
+    graph.until(commanded)
+
+
+def enable(graph, wanted):
+    assert graph.call(SetBool, f'{NODE}/enable', SetBool.Request(data=wanted)).success
 
 
 @pytest.fixture
@@ -23,21 +41,14 @@ def moved(graph):
     commands = graph.listen(JointState, 'joint_command')
     statuses = graph.listen(WristStatus, 'wrist_status')
     publisher = graph.publisher(Twist, 'cmd_vel_unstamped')
-    twist = Twist()
-    twist.angular.y = 0.8
-
-    def pitched():
-        publisher.publish(twist)
-        return commands and commands[-1].position[1] > 0.2
-
-    graph.until(pitched)
+    pitch_until(graph, publisher, lambda: commands and commands[-1].position[1] > 0.2)
     publisher.publish(Twist())
     graph.until(lambda: statuses[-1].state == WristStatus.IDLE)
-    return commands, statuses, publisher, twist
+    return commands, statuses, publisher
 
 
 def test_reset_goes_back_at_the_rate_limits_and_clears_the_time_lost(graph, moved):
-    commands, statuses, _, _ = moved
+    commands, statuses, _ = moved
     before = len(commands)
     answer = graph.call(Trigger, f'{NODE}/reset', Trigger.Request())
     assert answer.success, answer.message
@@ -48,20 +59,19 @@ def test_reset_goes_back_at_the_rate_limits_and_clears_the_time_lost(graph, move
 
 
 def test_a_disabled_resolver_sends_nothing_to_the_joints(graph, moved):
-    commands, statuses, publisher, twist = moved
-    assert graph.call(SetBool, f'{NODE}/enable', SetBool.Request(data=False)).success
+    commands, statuses, publisher = moved
+    enable(graph, False)
     graph.until(lambda: statuses[-1].state == WristStatus.DISABLED)
     count = len(commands)
-    for _ in range(10):
-        publisher.publish(twist)
-        graph.spin(0.02)
+    ended = time.monotonic() + 0.2
+    pitch_until(graph, publisher, lambda: time.monotonic() > ended)
     assert len(commands) == count
     assert not graph.call(Trigger, f'{NODE}/reset', Trigger.Request()).success
 
 
 def test_enabling_goes_on_from_where_the_joints_really_are(graph, moved):
-    commands, statuses, _, _ = moved
-    graph.call(SetBool, f'{NODE}/enable', SetBool.Request(data=False))
+    commands, statuses, _ = moved
+    enable(graph, False)
     graph.until(lambda: statuses[-1].state == WristStatus.DISABLED)
     measured = graph.publisher(JointState, 'joint_states')
     where = JointState(name=['phi', 'psi', 'theta'], position=[0.3, 0.1, 0.2])
@@ -69,15 +79,14 @@ def test_enabling_goes_on_from_where_the_joints_really_are(graph, moved):
         measured.publish(where)
         graph.spin(0.02)
     count = len(commands)
-    graph.call(SetBool, f'{NODE}/enable', SetBool.Request(data=True))
+    enable(graph, True)
     graph.until(lambda: len(commands) > count)
     assert list(commands[count].position) == [0.1, 0.2, 0.3]
 
 
 def test_a_resolver_that_starts_takes_over_without_a_jump(graph):
     """The joints stand elsewhere than initial_positions says: they are believed."""
-    names = ['psi', 'theta', 'phi']
-    graph.start(JointSimulator, joints=names, initial_positions=[0.4, 0.3, 0.2])
+    graph.start(JointSimulator, joints=NAMES, initial_positions=[0.4, 0.3, 0.2])
     states = graph.listen(JointState, 'joint_states')
     graph.until(lambda: states)
     graph.start(Resolver, 'three_gimbal')
@@ -88,17 +97,9 @@ def test_a_resolver_that_starts_takes_over_without_a_jump(graph):
 
 def test_a_joint_that_does_not_follow_stops_the_hand(graph):
     graph.start(Resolver, 'three_gimbal', joint_rate_limits=[LIMIT], command_timeout=5.0)
-    names = ['psi', 'theta', 'phi']
-    graph.start(JointSimulator, joints=names, joint_upper_limits=[1.0, 0.1, 1.0])
+    graph.start(JointSimulator, joints=NAMES, joint_upper_limits=[1.0, 0.1, 1.0])
     statuses = graph.listen(WristStatus, 'wrist_status')
     publisher = graph.publisher(Twist, 'cmd_vel_unstamped')
-    twist = Twist()
-    twist.angular.y = 0.8
-
-    def stopped():
-        publisher.publish(twist)
-        return statuses and statuses[-1].state == WristStatus.FAULT
-
-    graph.until(stopped)
+    pitch_until(graph, publisher, lambda: statuses and statuses[-1].state == WristStatus.FAULT)
     assert 'theta' in statuses[-1].message
     assert '~/enable' in statuses[-1].message

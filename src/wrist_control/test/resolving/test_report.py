@@ -1,7 +1,6 @@
 """What the operator is told: every state, and its sentence."""
 
 import re
-from pathlib import Path
 
 import pytest
 
@@ -13,7 +12,6 @@ from wrist_control.resolving.step import resting
 WRIST = make_wrist('three_gimbal')
 ZERO_TWIST = (0.0, 0.0, 0.0)
 YAW = (0.0, 0.0, 1.0)
-MESSAGES = Path(__file__).parents[3] / 'wrist_interfaces' / 'msg'
 
 
 def made(wrist=WRIST, **changes):
@@ -28,15 +26,6 @@ def limit(kind, joint='psi', asked=2.0, allowed=0.5, share=0.25):
 
 def told(one, commanded=YAW, wrist=WRIST):
     return state_of(one, commanded), sentence(wrist, one, commanded)
-
-
-@pytest.mark.parametrize(
-    ('enumeration', 'message'), [(WristState, 'WristStatus'), (LimitKind, 'LimitAtWork')]
-)
-def test_the_values_are_those_of_the_message(enumeration, message):
-    text = (MESSAGES / f'{message}.msg').read_text(encoding='utf-8')
-    constants = {name: int(value) for name, value in re.findall(r'^uint8 (\w+)=(\d+)', text, re.M)}
-    assert constants == {one.name: one.value for one in enumeration}
 
 
 def test_idle_when_nothing_is_commanded():

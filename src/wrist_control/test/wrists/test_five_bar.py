@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from wrist_control import UnreachableError, fly
 from wrist_control.operating.maneuvers import Maneuver, Segment
-from wrist_control.rotations import Pose, about_z, product, rates_between
 from wrist_control.wrists.five_bar import FiveBar
 
 # The hand stops this far before its edge: `soft_edge`.
@@ -17,7 +16,6 @@ STOP = 0.02
 
 WRIST = FiveBar()
 inside = st.tuples(st.floats(-1.4, 1.4), st.floats(-1.4, 1.4))
-rates = st.tuples(*(st.floats(-1.0, 1.0),) * 3)
 
 
 def moving_joints(t1, t2):
@@ -54,44 +52,6 @@ def test_inverse_undoes_forward_in_every_assembly(positions):
 def test_both_joints_at_a_right_angle_leave_the_hand_loose():
     with pytest.raises(UnreachableError, match='loose'):
         WRIST.forward((0.5 * math.pi, 0.5 * math.pi))
-
-
-def test_a_roll_of_its_own_is_out_of_reach():
-    pose = WRIST.forward((0.3, 0.4))
-    with pytest.raises(UnreachableError, match='point'):
-        WRIST.inverse(Pose(product(pose.quaternion, about_z(0.01))), (0.0, 0.0))
-
-
-@given(inside)
-def test_jacobian_is_the_finite_difference_of_forward(positions):
-    h = 1e-7
-    columns = []
-    for joint in range(2):
-        low, high = (
-            WRIST.forward([x + side * h * (i == joint) for i, x in enumerate(positions)])
-            for side in (-1.0, 1.0)
-        )
-        columns.append(rates_between(low.quaternion, high.quaternion, 2.0 * h))
-    np.testing.assert_allclose(WRIST.jacobian(positions), np.array(columns).T, atol=1e-4)
-
-
-@given(inside, rates)
-def test_rates_make_p_and_q(positions, twist):
-    p, q, _ = WRIST.jacobian(positions) @ WRIST.rates(positions, twist)
-    assert (p, q) == pytest.approx(twist[:2], abs=1e-9)
-
-
-@given(inside, rates)
-def test_advance_stays_in_reach_and_makes_p_and_q_to_second_order(positions, twist):
-    pose = WRIST.forward(positions)
-    for dt in (0.02, 0.01):
-        after = WRIST.target_pose(pose, twist, dt)
-        p, q, _ = rates_between(pose.quaternion, after.quaternion, dt)
-        curvature = 1.0 / WRIST.margin(positions) ** 2
-        assert abs(p - twist[0]) < 2.0 * curvature * dt**2
-        assert abs(q - twist[1]) < 2.0 * curvature * dt**2
-        remade = WRIST.forward(WRIST.inverse(after, positions))
-        np.testing.assert_allclose(remade.rotation, after.rotation, atol=1e-9)
 
 
 @pytest.mark.parametrize('limit', [None, 1.0])

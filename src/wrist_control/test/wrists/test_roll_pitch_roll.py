@@ -4,9 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
-from scipy.spatial.transform import Rotation
 
 from wrist_control import InvalidValueError, fly
 from wrist_control.operating.maneuvers import Maneuver, turn
@@ -14,34 +13,6 @@ from wrist_control.resolving import start, step
 from wrist_control.wrists.roll_pitch_roll import RollPitchRoll
 
 WRIST = RollPitchRoll()
-joints = st.tuples(*(st.floats(-3.0, 3.0),) * 3)
-commands = st.tuples(*(st.floats(-1.0, 1.0),) * 3)
-
-
-@given(joints)
-def test_hand_turns_about_x_y_x_in_this_order(positions):
-    turned = Rotation.from_euler('XYX', positions).as_matrix()
-    np.testing.assert_allclose(WRIST.forward(positions).rotation, turned.T, atol=1e-12)
-
-
-@given(joints, commands)
-def test_rates_solve_the_jacobian(positions, twist):
-    assume(abs(math.sin(positions[1])) > 0.01)
-    rates = np.linalg.solve(WRIST.jacobian(positions), twist)
-    np.testing.assert_allclose(WRIST.rates(positions, twist), rates, atol=1e-9)
-
-
-@given(joints, st.integers(-2, 2))
-def test_inverse_stays_on_the_branch_and_in_the_turn_of_near(positions, turns):
-    assume(abs(math.sin(positions[1])) > 0.01)
-    pose = WRIST.forward(positions)
-    first, second, third = positions
-    whole = math.tau * turns
-    for branch in (
-        (first + whole, second, third - whole),
-        (first + math.pi, -second + whole, third + math.pi),
-    ):
-        np.testing.assert_allclose(WRIST.inverse(pose, branch), branch, atol=1e-9)
 
 
 @given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0))

@@ -151,7 +151,7 @@ def test_the_lost_axis_at_a_quarter_turn_is_the_normal():
 
 
 @given(twists)
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_all_six_rates_are_scaled_alike(twist):
     wrist = WRIST.with_limits(rates=0.05)
     made = step(wrist, start(wrist), twist, DT)

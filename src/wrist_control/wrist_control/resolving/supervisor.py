@@ -177,8 +177,10 @@ class Supervisor:
                 return self._home()
             if self.mode is Mode.FOLLOWING:
                 return self._follow(self._commands.at(stamp_time), receipt_time)
-        except (WristError, ArithmeticError) as error:
+        except WristError as error:
             return self._fail(str(error))
+        except ArithmeticError as error:
+            return self._fail(f'The step could not be computed ({error}); nothing moves.')
         return self._stand_still()
 
     def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:

@@ -1,0 +1,83 @@
+"""One resolver step at lock: through it, late, and never faster than the joints may move."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from wrist_control import make_wrist
+from wrist_control.operating.maneuvers import BARKER_SPEED
+from wrist_control.resolving import LimitKind, step
+
+WRIST = make_wrist('three_gimbal')
+LOCKED = 0.5 * math.pi
+H = 1.0 / 32.0
+EPSILON = 0.001  # Barker's ε0
+YAW = (0.0, 0.0, BARKER_SPEED)
+
+twists = st.tuples(*(st.floats(-5.0, 5.0),) * 3)
+
+
+@pytest.fixture(scope='module')
+def locked(at):
+    """Make the state of a wrist with its middle gimbal at, or near, lock."""
+    return lambda wrist, theta=LOCKED: at(wrist, (0.0, theta, 0.0))
+
+
+def test_without_rate_limits_lock_is_left_in_one_step_and_nothing_is_lost(locked):
+    made = step(WRIST, locked(WRIST), YAW, H)
+    assert (made.singular, made.scale_factor, made.limits) == (True, 1.0, ())
+    np.testing.assert_allclose(np.degrees(made.joint_rates), (90 / H, -32, 90 / H), rtol=1e-9)
+    np.testing.assert_allclose(made.achieved[3:], YAW, atol=1e-12)
+
+
+def test_in_lock_the_joints_move_at_their_limit_and_little_of_the_command_is_followed(
+    steps, locked
+):
+    wrist = WRIST.with_limits(rates=BARKER_SPEED)
+    for made in steps(wrist, locked(wrist), YAW, 4):
+        assert made.singular
+        assert made.scale_factor < 0.02
+        assert max(map(abs, made.joint_rates)) == pytest.approx(BARKER_SPEED)
+        assert {limit.kind for limit in made.limits} == {LimitKind.RATE}
+
+
+@given(st.floats(-0.999e-3, 0.999e-3), twists, st.floats(0.05, 5.0))
+def test_lock_can_always_be_left(locked, off, twist, limit):
+    assume(max(map(abs, twist)) > 0.1)
+    wrist = WRIST.with_limits(rates=limit)
+    made = step(wrist, locked(wrist, LOCKED + off), twist, H)
+    assert made.singular
+    assert made.scale_factor > 0.0
+    assert any(made.joint_rates)
+
+
+@given(st.floats(0.0, 0.999e-3), st.floats(0.1, 2.0), st.floats(-3.0, 3.0))
+def test_in_lock_the_probe_strays_by_no_more_than_the_margin(steps, locked, off, speed, direction):
+    wrist = WRIST.with_limits(rates=BARKER_SPEED)
+    twist = (0.0, speed * math.sin(direction), speed * math.cos(direction))
+    before = locked(wrist, LOCKED - off)
+    probe = before.pose.rotation[0]
+    strayed = 0.0
+    for made in steps(wrist, before, twist, 200):
+        if made.margin >= EPSILON:
+            break
+        strayed = max(strayed, math.asin(min(1.0, math.hypot(*made.state.pose.rotation[0, :2]))))
+    assert np.linalg.norm(probe - (0.0, 0.0, -1.0)) < EPSILON
+    one_step = speed * H
+    assert strayed <= EPSILON + one_step
+
+
+def test_a_position_limit_is_named_beside_the_rate_limits_that_are_at_work_with_it(steps, locked):
+    wrist = WRIST.with_limits(rates=BARKER_SPEED, lower=-1.7, upper=(1.0, 1.7, 1.2))
+    *_, last = steps(wrist, locked(wrist), YAW, 100)
+    assert last.state.positions[0] == pytest.approx(1.0, abs=1e-6)
+    assert last.scale_factor < 1e-6
+    kinds = [(limit.joint, limit.kind) for limit in last.limits]
+    assert ('psi', LimitKind.POSITION) in kinds
+    assert ('psi', LimitKind.RATE) in kinds
+    assert len(kinds) == len(set(kinds))
+    back = step(wrist, last.state, tuple(-x for x in YAW), H)
+    assert any(back.joint_rates)

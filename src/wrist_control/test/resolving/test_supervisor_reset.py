@@ -1,0 +1,96 @@
+"""A supervisor on its way home: at the rate limits, and nobody else in charge."""
+
+import math
+
+import numpy as np
+import pytest
+
+from wrist_control import InvalidValueError, make_wrist
+from wrist_control.resolving.report import WristState
+from wrist_control.resolving.step import ZERO_TWIST
+from wrist_control.resolving.supervisor import Mode
+
+PITCH = (0.0, 0.0, 0.0, 0.0, 0.3, 0.0)
+WRIST = make_wrist('three_gimbal')
+
+
+@pytest.mark.parametrize('rates', [0.5, (0.2, math.inf, 0.7), math.inf])
+def test_reset_goes_home_at_the_rate_limits_and_never_jumps(clocked, rates):
+    wrist = clocked(WRIST.with_limits(rates=rates))
+    allowed = [0.5 if math.isinf(rate) else rate for rate in np.broadcast_to(rates, 3)]
+    wrist.ticks(1.5, (0.0, 0.0, 0.0, 0.4, 0.2, -0.4))
+    wrist.supervisor.reset()
+    path = [wrist.positions]
+    while wrist.supervisor.mode is Mode.HOMING:
+        outcome = wrist.tick()
+        assert outcome.message.startswith('Resetting')
+        assert outcome.moving_allowed
+        path.append(outcome.step.state.positions)
+        moved = np.subtract(path[-1], path[-2])
+        np.testing.assert_allclose(outcome.step.joint_rates, moved / wrist.dt, atol=1e-9)
+    assert (np.abs(np.diff(path, axis=0)) <= wrist.dt * np.array(allowed) * (1.0 + 1e-8)).all()
+    assert len(path) > 50
+    assert wrist.positions == wrist.initial
+
+
+def test_after_a_reset_time_lost_starts_again_from_zero(wrist):
+    wrist.ticks(0.5, (0.0, 0.0, 0.0, 2.0, 0.0, 0.0))
+    assert wrist.supervisor.state.time_lost > 0.3
+    assert 'time lost starts again from zero' in wrist.supervisor.reset()
+    wrist.ticks(3.0)
+    assert wrist.supervisor.state.time_lost == 0.0
+    assert wrist.supervisor.mode is Mode.FOLLOWING
+
+
+def test_commands_during_a_reset_do_not_count_neither_then_nor_after(wrist):
+    wrist.ticks(0.5, PITCH)
+    wrist.supervisor.reset()
+    while wrist.supervisor.mode is Mode.HOMING:
+        wrist.command(PITCH)
+        assert wrist.tick().commanded == ZERO_TWIST
+    assert wrist.tick().wrist_state == WristState.IDLE
+    assert wrist.positions == wrist.initial
+    assert wrist.follow(PITCH).wrist_state == WristState.TRACKING
+
+
+def test_a_reset_at_home_is_done_at_once(wrist):
+    wrist.supervisor.reset()
+    wrist.tick()
+    assert wrist.supervisor.mode is Mode.FOLLOWING
+
+
+def test_a_reset_needs_somebody_who_may_move(wrist):
+    wrist.supervisor.enable(False)
+    with pytest.raises(InvalidValueError, match=r'Cannot reset: nobody: disabled .* ~/enable'):
+        wrist.supervisor.reset()
+    assert wrist.supervisor.mode is Mode.DISABLED
+
+
+def test_a_reset_can_be_broken_off_by_disabling(wrist):
+    wrist.ticks(0.5, PITCH)
+    wrist.supervisor.reset()
+    wrist.ticks(0.1)
+    wrist.supervisor.enable(False)
+    before = wrist.positions
+    wrist.ticks(0.5)
+    assert wrist.positions == before != wrist.initial
+
+
+def test_a_reset_to_where_new_limits_forbid_to_be_is_refused(wrist):
+    wrist.ticks(0.5, (0.0, 0.0, 0.0, -0.4, 0.0, 0.0))
+    wrist.supervisor.wrist = wrist.supervisor.wrist.with_limits(upper=(2.0, 2.0, 0.2))
+    with pytest.raises(InvalidValueError, match=r'initial_positions has 0\.3 for phi'):
+        wrist.supervisor.reset()
+    assert wrist.supervisor.mode is Mode.FOLLOWING
+
+
+def test_a_reset_that_the_mechanism_cannot_make_is_a_fault_and_not_a_crash(clocked, rail):
+    class Gapped(rail):
+        gap = (0.4, 0.6)
+
+    wrist = clocked(Gapped(), (0.0,))
+    wrist.measure((1.0,), ('phi',))
+    wrist.supervisor.reset()
+    states = [one.wrist_state for one in wrist.ticks(2.0)]
+    assert states[-1] == WristState.FAULT
+    assert 0.6 <= wrist.positions[0] <= 0.61
