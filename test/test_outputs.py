@@ -111,7 +111,9 @@ def test_markers_draw_the_hands_axes_the_lost_one_and_the_sentence(graph):
     assert all((m.points[0].x, m.points[0].y, m.points[0].z) == (0.0, 0.0, 0.0) for m in arrows)
     tips = np.array([(m.points[1].x, m.points[1].y, m.points[1].z) for m in arrows])
     s, c = length * math.sin(pitch), length * math.cos(pitch)
-    np.testing.assert_allclose(tips[:3], [[c, 0.0, -s], [0.0, length, 0.0], [s, 0.0, c]], atol=1e-12)
+    np.testing.assert_allclose(
+        tips[:3], [[c, 0.0, -s], [0.0, length, 0.0], [s, 0.0, c]], atol=1e-12
+    )
     # Half of the margin is gone, so the warning is half as strong and half as long.
     np.testing.assert_allclose(np.linalg.norm(tips[3]), 0.5 * length)
     assert arrows[3].color.a == pytest.approx(0.5)

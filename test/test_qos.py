@@ -79,7 +79,9 @@ def test_of_a_burst_of_positions_the_joint_simulator_looks_at_each(graph):
     assert refused_of_a_burst(graph, bad, 'joint_command') == 5
 
 
-@pytest.mark.parametrize('reliability', [ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT])
+@pytest.mark.parametrize(
+    'reliability', [ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT]
+)
 def test_commands_of_both_kinds_of_publisher_are_followed(graph, reliability):
     graph.start(Resolver, 'three_gimbal')
     statuses = graph.listen(WristStatus, 'wrist_status')

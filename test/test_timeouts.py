@@ -97,20 +97,23 @@ def test_the_age_at_which_a_stamp_is_refused_changes_with_the_timeout(graph):
     graph.until(old_command_moves)
 
 
-class SettableClock(ROSClock):
-    """The system's clock as it is when somebody sets it."""
+class SystemClock:
+    """The system's clock, as a resolver reads it, when somebody sets it."""
 
-    ahead = Duration()
+    def __init__(self):
+        self.ahead = Duration()
+        self.clock = ROSClock()
+        self.clock.now = self.now
 
     def now(self):
-        return super().now() + self.ahead
+        return ROSClock.now(self.clock) + self.ahead
 
 
 @pytest.fixture
 def settable(monkeypatch):
-    clock = SettableClock()
-    monkeypatch.setattr(Resolver, 'get_clock', lambda self: clock)
-    return clock
+    system = SystemClock()
+    monkeypatch.setattr(Resolver, 'get_clock', lambda self: system.clock)
+    return system
 
 
 @pytest.mark.parametrize('ahead', [HOUR, Duration(seconds=-3600.0)])
@@ -126,9 +129,12 @@ def test_a_system_clock_that_is_set_neither_stops_the_hand_nor_keeps_it_moving(
         return statuses and statuses[-1].state == WristStatus.TRACKING
 
     graph.until(followed)
+    graph.spin(0.1)  # so that every command is heard before
     settable.ahead = ahead
     heard = len(statuses)
     graph.until(lambda: len(statuses) > heard + 10)
+    jump = statuses[-1].header.stamp.sec - statuses[heard - 1].header.stamp.sec
+    assert jump == pytest.approx(1e-9 * ahead.nanoseconds, abs=2.0)
     assert statuses[-1].state == WristStatus.TRACKING
     graph.until(lambda: statuses[-1].state == WristStatus.STALE, limit=5.0)
     graph.until(lambda: not statuses[-1].commanded.angular.y, limit=5.0)
