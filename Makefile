@@ -37,6 +37,10 @@ demo: setup  ## fly Barker's basic test maneuver, with figures in out/
 bench: setup  ## measure how fast it is, as ratios within one run
 	@for script in bench/bench_*.py; do ./env python3 "$$script" || exit $$?; done
 
+.PHONY: mutants
+mutants: setup  ## put small faults into the code and see that the tests find them
+	@./env python3 scripts/mutants.py
+
 .PHONY: compare
 compare: setup  ## fly every wrist through the same maneuvers and compare them
 	@./env python3 -m wrist_control.studies.compare

@@ -1,0 +1,204 @@
+"""Faults that the tests must find, each with what it would do to whoever stands beside the robot.
+
+A text is there once in its file; where it is not any more, `make mutants` says so.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Chosen(NamedTuple):
+    """One fault.
+
+    Attributes:
+        file: Path below the package's folder.
+        text: The text that is replaced.
+        replacement: What replaces it.
+        why: What would go wrong.
+    """
+
+    file: str
+    text: str
+    replacement: str
+    why: str
+
+
+NODE, SETTINGS = 'nodes/resolver.py', 'nodes/resolver_settings.py'
+OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
+SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
+JOYSTICK = 'operating/joystick.py'
+STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
+RECEIPT, STAMP = 'self._seconds(self._receipt_clock)', 'self._seconds(self.get_clock())'
+FIRST = "self.__dict__.setdefault('_first', self._values['command_timeout'])"
+LOOK = 'if publisher.topic_type != kind:'
+QOS, RECORDING = 'ros/qos.py', 'graph/recording.py'
+UNSURE = 'OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)'
+
+CHOSEN = tuple(
+    Chosen(*facts)
+    for facts in (
+        # A change of a live parameter that is accepted and then not followed.
+        (NODE, 'self._supervisor.settings = settings(', 'settings(', 'live timeouts are dead'),
+        (SETTINGS, "values['command_timeout']", '0.25', 'the hand runs on for another time'),
+        (SETTINGS, "values['stop_time']", '0.1', 'the ramp to a stop takes another time'),
+        (NODE, "self._values['command_timeout'],", f'{FIRST},', 'old commands count, or new not'),
+        (NODE, 'self._supervisor.wrist = limited(', 'limited(', 'live limits are dead'),
+        (OPERATOR, 'self._check, self._values.update)', 'self._check, bool)', 'no live rates'),
+        # Clocks: a system clock that is set must not keep the hand moving.
+        (
+            NODE,
+            'Clock(clock_type=ClockType.STEADY_TIME)',
+            'self.get_clock()',
+            'no stop in silence',
+        ),
+        (
+            NODE,
+            f'names, message.position, {RECEIPT}',
+            f'names, message.position, {STAMP}',
+            'no fault',
+        ),
+        (
+            NODE,
+            f'receipt_time={RECEIPT},\n            )',
+            f'receipt_time={STAMP},\n            )',
+            'ages',
+        ),
+        (NODE, f'receipt_time={RECEIPT},\n        )', f'receipt_time={STAMP},\n        )', 'ages'),
+        (NODE, "if self.get_parameter('use_sim_time').value:", 'if False:', 'other runs differ'),
+        ('ros/convert.py', '        return None\n', '        return 0.0\n', 'no stamp is too old'),
+        ('resolving/commands.py', 'CLOCK_SKEW = 0.05', 'CLOCK_SKEW = 0.5', 'the future counts'),
+        # Stopping.
+        ('resolving/commands.py', 'if age <= timeout:', 'if True:', 'the hand never stops'),
+        (
+            'resolving/commands.py',
+            'max(0.0, 1.0 - (age - timeout) / stop_time)',
+            '0.0',
+            'the hand stops with a jerk',
+        ),
+        (
+            OUTPUTS,
+            'result.moving_allowed or self._was_allowed',
+            'result.moving_allowed',
+            'runs on',
+        ),
+        (OUTPUTS, '= result.moving_allowed\n', '= True\n', 'sends while it is disabled'),
+        (OUTPUTS, 'if result.moving_allowed:', 'if True:', 'sends while it is disabled'),
+        # Who is in charge.
+        (SUPERVISOR, '            self._moved = False\n', '', 'after a pause it jumps back'),
+        (
+            SUPERVISOR,
+            '            self._lagging_since = None\n            self._moved',
+            '            self._moved',
+            'a fault as soon as it is enabled',
+        ),
+        (
+            SUPERVISOR,
+            '            self._commands.clear()\n            self._lagging',
+            '            self._lagging',
+            'an old command moves the hand as soon as it is enabled',
+        ),
+        (
+            SUPERVISOR,
+            'self.mode = Mode.FOLLOWING\n            self._commands.clear()\n',
+            'self.mode = Mode.FOLLOWING\n',
+            'an old command moves the hand after a reset',
+        ),
+        (SUPERVISOR, '        self._moved = True\n', '', 'a reset jumps to what is measured'),
+        (SUPERVISOR, "'revolute': 0.35", "'revolute': 3.5", 'a joint that is stuck is not seen'),
+        (SUPERVISOR, "'prismatic': 0.02", "'prismatic': 0.2", 'a leg that is stuck is not seen'),
+        (SUPERVISOR, 'LAG_TIME = 0.5', 'LAG_TIME = 5.0', 'a joint that is stuck is seen late'),
+        ('resolving/homing.py', "'revolute': 0.5", "'revolute': 5.0", 'a reset is a blow'),
+        ('resolving/homing.py', "'prismatic': 0.02", "'prismatic': 0.2", 'a reset is a blow'),
+        ('resolving/homing.py', '< 1e-9', '< 1e-3', 'a reset ends beside its goal'),
+        # The operator.
+        (OPERATOR, ">= self._values['listeners']", '>= 1', 'a maneuver begins without the joints'),
+        (OPERATOR, 'and not self._is_heard()', 'and False', 'a maneuver begins unheard'),
+        (
+            JOYSTICK,
+            'if self.enable_button >= 0 and not buttons[self.enable_button]:',
+            'if False:',
+            'the hand moves without the dead-man button',
+        ),
+        (JOYSTICK, 'max(0.0, abs(value) - self.deadzone)', 'abs(value)', 'a stick at rest creeps'),
+        (JOYSTICK, ' or receipt_time - self._heard > self.timeout', '', 'a lost stick drives on'),
+        (
+            JOYSTICK,
+            'self._rates, self._heard = ZERO_RATES, receipt_time',
+            'self._heard = receipt_time',
+            'a stick that talks nonsense drives on',
+        ),
+        # Edges and locks.
+        ('wrists/wrist.py', 'stop: float = 0.02', 'stop: float = 0.2', 'workspace is lost'),
+        ('wrists/wrist.py', 'stop: float = 0.02', 'stop: float = 0.002', 'too near to the edge'),
+        ('wrists/wrist.py', 'horizon: float = 0.1', 'horizon: float = 1.0', 'the edge is glue'),
+        ('wrists/wrist.py', 'horizon: float = 0.1', 'horizon: float = 0.01', 'the edge is a wall'),
+        (STEWART, 'EDGE = 0.01', 'EDGE = 0.1', 'workspace is lost'),
+        (STEWART, 'EDGE = 0.01', 'EDGE = 0.001', 'too near to lock'),
+        (STEWART, 'HORIZON = 0.5', 'HORIZON = 5.0', 'lock is glue'),
+        (STEWART, 'HORIZON = 0.5', 'HORIZON = 0.05', 'lock is a wall'),
+        (STEWART, 'FAR = 0.02', 'FAR = 0.2', 'the platform is taken for another assembly'),
+        ('stewart/measurement.py', 'SLACK = 1e-9', 'SLACK = 1e-3', 'impossible lengths pass'),
+        (
+            'stewart/forward_kinematics.py',
+            'bound = size * (3.0 * error',
+            'bound = size * (1.0 * error',
+            'a proof that proves too much',
+        ),
+        (FOUR, 'CUSHION = 0.25', 'CUSHION = 2.5', 'the fourth gimbal gives up too soon'),
+        (FOUR, 'CUSHION = 0.25', 'CUSHION = 0.025', 'the fourth gimbal runs into its limit'),
+        (FOUR, 'law = -self.gain', 'law = self.gain', 'the fourth gimbal drives into lock'),
+        (THREE, 'LOCK = 1e-9', 'LOCK = 1e-3', 'the joints are not those of the pose'),
+        (THREE, 'TIE = 1e-6', 'TIE = 0.1', 'the branch that is further away is taken'),
+        ('wrists/double_hooke.py', 'LOCK = 1e-9', 'LOCK = 1e-3', 'joints not those of the pose'),
+        (STEP, 'SINGULAR_MARGIN = 0.001', 'SINGULAR_MARGIN = 0.01', 'strays further than Barker'),
+        (STEP, 'SINGULAR_MARGIN = 0.001', 'SINGULAR_MARGIN = 0.0001', 'rates without bounds'),
+        (STEP, 'SMALLEST_SHARE = 0.1', 'SMALLEST_SHARE = 1e-9', 'held at a limit for good'),
+        (STEP, 'MOST_REDUCTIONS = 60', 'MOST_REDUCTIONS = 6', 'stops before the limit'),
+        (STEP, 'SMALLEST_FACTOR = 1e-6', 'SMALLEST_FACTOR = 1e-2', 'stops before the limit'),
+        # What people and other nodes are told.
+        ('resolving/report.py', 'NOTICEABLE = 1e-3', 'NOTICEABLE = 1e-2', 'a lost part is hidden'),
+        ('ros/diagnostics.py', "'state', level", "'state', OK", 'a fault is shown green'),
+        ('ros/diagnostics.py', 'WARN if total > self._seen else OK', 'OK', 'refusals are hidden'),
+        ('ros/diagnostics.py', '        self._seen = total\n', '', 'one refusal warns for ever'),
+        ('ros/wrong_types.py', LOOK, 'if False:', 'a publisher is unheard without a word'),
+        (NODE, 'level = max(level, WARN)', 'pass', 'a publisher that is unheard is shown green'),
+        (
+            'ros/wrong_types.py',
+            '        self.found[node_name, topic] = sentence\n',
+            '',
+            'a publisher is unheard without a name',
+        ),
+        (
+            QOS,
+            'OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)',
+            UNSURE,
+            'loss',
+        ),
+        (
+            QOS,
+            'NEWEST = QoSProfile(depth=1, ',
+            'NEWEST = QoSProfile(depth=10, ',
+            'old commands queue',
+        ),
+        (
+            QOS,
+            'NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)',
+            'NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)',
+            'a best-effort publisher is not heard',
+        ),
+        (
+            QOS,
+            'EVERY = QoSProfile(depth=10, ',
+            'EVERY = QoSProfile(depth=1, ',
+            'positions are lost',
+        ),
+        (
+            RECORDING,
+            'followed[-n:][1:] == asked[:-1] and ',
+            '',
+            'a late command is shown as flown',
+        ),
+        (RECORDING, 'atol=1e-9', 'atol=1e9', 'joint states that came late are shown as flown'),
+    )
+)

@@ -1,0 +1,164 @@
+"""After a pause, a fault or a reset: nothing of the time before moves the hand, or stops it."""
+
+import math
+
+import pytest
+
+from wrist_control import make_wrist
+from wrist_control.resolving.commands import Command
+from wrist_control.resolving.report import WristState
+from wrist_control.resolving.step import ZERO_TWIST
+from wrist_control.resolving.supervisor import Mode, Supervisor, SupervisorSettings
+
+DT = 0.01
+LONG = 10.0  # s: no command runs out here
+LIMIT = 0.5
+NAMES = ('psi', 'theta', 'phi')
+START = (0.1, 0.2, 0.3)
+ROLL = (0.0, 0.0, 0.0, 0.3, 0.0, 0.0)
+FAST = (0.0, 0.0, 0.0, 60.0, 0.0, 0.0)  # 0.6 rad in one step: more than a joint may lag
+
+
+class Timed:
+    """A supervisor whose clock advances by one period at each tick."""
+
+    def __init__(self, rates=LIMIT):
+        wrist = make_wrist('three_gimbal').with_limits(rates=rates)
+        self.supervisor = Supervisor(wrist, SupervisorSettings(DT, LONG, 0.1, START))
+        self.now = 0.0
+
+    def command(self, twist):
+        self.supervisor.take_command(Command(twist, False, None, self.now))
+
+    def measure(self, positions):
+        self.supervisor.take_measured(NAMES, positions, self.now)
+
+    def ticks(self, seconds):
+        for _ in range(round(seconds / DT)):
+            self.now += DT
+            result = self.supervisor.tick(stamp_time=self.now, receipt_time=self.now)
+        return result
+
+    @property
+    def positions(self):
+        return self.supervisor.state.positions
+
+
+@pytest.fixture
+def timed():
+    return Timed()
+
+
+def test_after_a_pause_the_joints_are_believed_until_the_first_motion(timed):
+    """They are heard for the first time after the pause only."""
+    timed.command(ROLL)
+    timed.ticks(0.1)
+    timed.supervisor.enable(False)
+    timed.supervisor.enable(True)
+    timed.measure((0.4, 0.5, 0.6))
+    assert timed.positions == (0.4, 0.5, 0.6)
+    timed.ticks(0.1)
+    timed.measure((0.3, 0.4, 0.5))
+    assert timed.positions == (0.3, 0.4, 0.5)
+    timed.command(ROLL)
+    timed.ticks(DT)
+    moved = timed.positions
+    timed.measure((0.3, 0.4, 0.5))
+    assert timed.positions == moved
+
+
+def test_a_command_from_before_a_pause_does_not_move_the_hand_after_it(timed):
+    timed.command(ROLL)
+    timed.ticks(0.1)
+    timed.supervisor.enable(False)
+    timed.command(ROLL)  # also one that comes while nothing may move
+    timed.ticks(0.1)
+    paused = timed.positions
+    timed.supervisor.enable(True)
+    result = timed.ticks(0.1)
+    assert (result.wrist_state, result.commanded) == (WristState.IDLE, ZERO_TWIST)
+    assert timed.positions == paused
+
+
+def test_enabling_what_is_enabled_does_not_stop_the_hand(timed):
+    timed.command(ROLL)
+    timed.ticks(0.1)
+    assert timed.supervisor.enable(True).startswith('Enabled')
+    assert timed.ticks(DT).commanded == ROLL
+
+
+def test_a_lag_from_before_a_fault_does_not_count_after_it():
+    timed = Timed(rates=math.inf)
+    timed.measure(START)
+    timed.command(FAST)
+    timed.ticks(DT)
+    timed.measure(START)
+    timed.ticks(0.6)
+    timed.measure(START)
+    assert timed.supervisor.mode is Mode.FAULT
+    timed.supervisor.enable(True)
+    timed.command(FAST)
+    timed.ticks(DT)
+    timed.measure(START)
+    assert timed.supervisor.mode is Mode.FOLLOWING
+    timed.ticks(0.4)
+    timed.measure(START)
+    assert timed.supervisor.mode is Mode.FOLLOWING
+    timed.ticks(0.2)
+    timed.measure(START)
+    assert timed.supervisor.mode is Mode.FAULT
+
+
+@pytest.mark.parametrize('name', ['three_gimbal', 'stewart'])
+@pytest.mark.parametrize('share', [0.98, 1.02])
+def test_a_joint_may_lag_as_far_as_the_interfaces_document_says(name, share):
+    """0.35 rad, and 0.02 m, for 0.5 s."""
+    most = {'three_gimbal': 0.35, 'stewart': 0.02}[name]
+    wrist = make_wrist(name)
+    supervisor = Supervisor(wrist, SupervisorSettings(DT, LONG, 0.1, wrist.home))
+    names = [joint.name for joint in wrist.joints]
+    supervisor.take_measured(names, wrist.home, 0.0)
+    tiny = (0.0, 0.0, 1e-6, 1e-6, 0.0, 0.0)
+    supervisor.take_command(Command(tiny, False, None, 0.0))
+    supervisor.tick(stamp_time=DT, receipt_time=DT)
+    behind = [wrist.home[0] - share * most, *tuple(wrist.home)[1:]]
+    modes = []
+    for now in (1.0, 1.49, 1.51):
+        supervisor.take_measured(names, behind, now)
+        modes.append(supervisor.mode)
+    assert modes == [Mode.FOLLOWING] * 2 + [Mode.FAULT if share > 1.0 else Mode.FOLLOWING]
+
+
+def test_a_lag_that_ends_in_between_is_forgotten(timed):
+    timed.measure(START)
+    timed.command(ROLL)
+    timed.ticks(DT)
+    behind = (START[0] - 0.4, *START[1:])
+    for now, positions in ((1.0, behind), (1.3, START), (1.4, behind), (1.8, behind)):
+        timed.now = now
+        timed.measure(positions)
+    assert timed.supervisor.mode is Mode.FOLLOWING
+    timed.now = 1.95
+    timed.measure(behind)
+    assert timed.supervisor.mode is Mode.FAULT
+
+
+def test_a_command_from_before_a_reset_or_during_it_does_not_move_the_hand_after_it(timed):
+    timed.command(ROLL)
+    timed.ticks(0.3)
+    timed.supervisor.reset()
+    timed.ticks(DT)
+    timed.command(ROLL)
+    timed.ticks(2.0)
+    assert timed.supervisor.mode is Mode.FOLLOWING
+    assert timed.positions == START
+
+
+def test_joints_that_are_heard_after_a_reset_do_not_count_as_a_start(timed):
+    timed.measure(START)
+    timed.supervisor.state = timed.supervisor.state._replace(time_lost=1.0)
+    timed.supervisor.reset()
+    timed.ticks(DT)
+    assert timed.supervisor.state.time_lost == 0.0
+    timed.measure((0.2, 0.3, 0.4))
+    assert timed.positions == START
