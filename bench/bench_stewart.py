@@ -28,7 +28,7 @@ from scipy.optimize import fsolve, least_squares
 from scipy.spatial.transform import Rotation
 
 from wrist_control import make_wrist
-from wrist_control.rotations import Pose, turned, xyzw
+from wrist_control.rotations import Pose, Poses, turned, xyzw
 from wrist_control.stewart import batch
 
 WRIST = make_wrist('stewart')
@@ -178,7 +178,7 @@ def batch_times(problem: Problem, n: int, turns: int) -> tuple[float, float, flo
     """Return the time per pose of a batch: all of it, its Newton steps, and its proofs, s."""
     repeat = -(-n // len(problem.poses))
     lengths = np.tile(problem.lengths, (repeat, 1))[:n]
-    near = Pose(
+    near = Poses(
         np.tile([p.quaternion for p in problem.before], (repeat, 1))[:n],
         np.tile([p.position for p in problem.before], (repeat, 1))[:n],
     )
@@ -190,7 +190,7 @@ def batch_times(problem: Problem, n: int, turns: int) -> tuple[float, float, flo
         assert (found.status == 0).all()
         newton = prove = 0.0
         for part in batch.chunks(n):
-            start = batch.starts(near, FK.size, part)
+            start = batch.unknowns_of(near, FK.size, part)
             began = time.thread_time()
             roots = batch.newton(FK.planar, batch.right_sides(FK.planar, lengths[part]), start)
             between = time.thread_time()

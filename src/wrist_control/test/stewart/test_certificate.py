@@ -10,7 +10,12 @@ from hypothesis import strategies as st
 from wrist_control import make_wrist
 from wrist_control.rotations import IDENTITY, Pose, turned
 from wrist_control.stewart import batch, general, quadratics, stages, tracking
-from wrist_control.stewart.certificate import BRANCH, NOTHING, kantorovich, moved
+from wrist_control.stewart.certificate import (
+    BRANCH_LIMIT,
+    NOTHING_PROVED,
+    beta_nearby,
+    kantorovich,
+)
 
 WRIST = make_wrist('stewart')
 SIZE = WRIST.size
@@ -27,7 +32,7 @@ poses = st.builds(
 def entries_of(at, right):
     """All six entries of E in Frobenius weights, from the matrices they are defined by."""
     _, _, u1, _, u2, v2, z, u3, v3 = at
-    linear = np.array(right) + np.array(KNOWN.free) @ [u1, u2, v2]
+    linear = np.array(right) + np.array(KNOWN.per_t) @ [u1, u2, v2]
     s, m, n = linear[3:]
     X = np.array([[linear[0], u1, linear[2]], [linear[1], u2, v2], [z, u3, v3]])
     E = np.array([[s, m, n], [m, 1, 0], [n, 0, 1]]) - X.T @ X
@@ -40,7 +45,7 @@ def exact_beta(at, right):
     t_h = np.array([at[2], at[4], at[5], at[6], at[7], at[8]])
 
     def unknowns(v):
-        linear = np.array(right) + np.array(KNOWN.free) @ v[:3]
+        linear = np.array(right) + np.array(KNOWN.per_t) @ v[:3]
         return (linear[0], linear[1], v[0], linear[2], v[1], v[2], *v[3:])
 
     columns, lift = [], []
@@ -55,16 +60,16 @@ def exact_beta(at, right):
 def test_nine_numbers_of_the_pose_say_the_lengths(pose):
     at = stages.unknowns(pose, SIZE)
     right = quadratics.right_side(KNOWN, WRIST.assembly_at(pose))
-    assert right == pytest.approx(quadratics.own_side(KNOWN, at), abs=1e-13)
+    assert right == pytest.approx(quadratics.right_side_at(KNOWN, at), abs=1e-13)
     assert entries_of(at, right) == pytest.approx(np.zeros(6), abs=1e-13)
 
 
 @given(poses)
 def test_the_bound_is_never_below_the_exact_norm(pose):
     at = stages.unknowns(pose, SIZE)
-    rows = quadratics.inverse(KNOWN.free, at)
+    rows = quadratics.newton_inverse(KNOWN.per_t, at)
     exact = exact_beta(at, quadratics.right_side(KNOWN, WRIST.assembly_at(pose)))
-    bound = quadratics.beta(KNOWN, at, rows)
+    bound = quadratics.kantorovich_beta(KNOWN, at, rows)
     assert bound >= exact
     assert bound <= 30.0 * exact
 
@@ -119,35 +124,39 @@ def test_radii_of_a_scalar_quadratic_are_its_roots(a, share):
 
 
 def test_nothing_is_proved_where_two_roots_can_meet():
-    assert kantorovich(1.0, 0.25) == NOTHING
-    assert kantorovich(1.0, 0.3) == NOTHING
-    assert kantorovich(math.nan, 0.0) == NOTHING
+    assert kantorovich(1.0, 0.25) == NOTHING_PROVED
+    assert kantorovich(1.0, 0.3) == NOTHING_PROVED
+    assert kantorovich(math.nan, 0.0) == NOTHING_PROVED
 
 
 def test_a_bound_that_moved_too_far_bounds_nothing():
-    assert moved(2.0, 0.1) == pytest.approx(2.0 / 0.6)
-    assert moved(2.0, 0.25) == math.inf
+    assert beta_nearby(2.0, 0.1) == pytest.approx(2.0 / 0.6)
+    assert beta_nearby(2.0, 0.25) == math.inf
 
 
 @given(poses, poses, st.floats(0.0, 1.0))
 def test_the_moved_bound_holds_at_the_other_pose(one, other, share):
     a, b = (stages.unknowns(p, SIZE) for p in (one, other))
     b = tuple((1 - share) * x + share * y for x, y in zip(a, b, strict=True))
-    bound = moved(quadratics.beta(KNOWN, a, quadratics.inverse(KNOWN.free, a)), math.dist(a, b))
+    bound = beta_nearby(
+        quadratics.kantorovich_beta(KNOWN, a, quadratics.newton_inverse(KNOWN.per_t, a)),
+        math.dist(a, b),
+    )
     if bound < math.inf:
         # The linear rows tie x, y, v₁ to t, so compare on the surface of the same lengths.
         right = quadratics.right_side(KNOWN, WRIST.assembly_at(one))
-        x, y, v1, *_ = np.array(right) + np.array(KNOWN.free) @ [b[2], b[4], b[5]]
+        x, y, v1, *_ = np.array(right) + np.array(KNOWN.per_t) @ [b[2], b[4], b[5]]
         on = (x, y, b[2], v1, *b[4:])
-        at_most = moved(
-            quadratics.beta(KNOWN, a, quadratics.inverse(KNOWN.free, a)), math.dist(a, on)
+        at_most = beta_nearby(
+            quadratics.kantorovich_beta(KNOWN, a, quadratics.newton_inverse(KNOWN.per_t, a)),
+            math.dist(a, on),
         )
         if at_most < math.inf:
             assert exact_beta(on, right) <= at_most * (1 + 1e-9)
 
 
 def test_the_branch_test_is_where_the_discriminant_vanishes():
-    assert pytest.approx(1.0) == (BRANCH + BRANCH**2) * 4.0
+    assert pytest.approx(1.0) == (BRANCH_LIMIT + BRANCH_LIMIT**2) * 4.0
 
 
 def test_a_root_beyond_the_branch_test_is_not_called_followed():
@@ -158,7 +167,7 @@ def test_a_root_beyond_the_branch_test_is_not_called_followed():
             continue
         right = quadratics.right_side(KNOWN, WRIST.home)
         start = stages.unknowns(WRIST.home.pose, SIZE)
-        rows = quadratics.inverse(KNOWN.free, at)
+        rows = quadratics.newton_inverse(KNOWN.per_t, at)
         track = tracking._proved(KNOWN, at, start, 0, at, rows, 1e-14)
         assert right is not None
         assert not track.followed
@@ -170,10 +179,12 @@ def test_a_spoiled_answer_is_not_given_a_small_error(spoil):
     pose = Pose(turned(IDENTITY, (0.1, 0.2, 0.3), 1.0), (0.02, 0.01, 0.42))
     right = quadratics.right_side(KNOWN, WRIST.assembly_at(pose))
     at = stages.unknowns(pose, SIZE)
-    wrong, *e = quadratics.point(right, KNOWN.free, at[2] + spoil, at[4], at[5], 1.0)
+    wrong, *e = quadratics.unknowns_and_residual(
+        right, KNOWN.per_t, at[2] + spoil, at[4], at[5], 1.0
+    )
     left = math.sqrt(e[0] ** 2 + 2 * e[1] ** 2 + e[2] ** 2)
     track = tracking._proved(
-        KNOWN, wrong, at, 0, wrong, quadratics.inverse(KNOWN.free, wrong), left
+        KNOWN, wrong, at, 0, wrong, quadratics.newton_inverse(KNOWN.per_t, wrong), left
     )
     assert math.dist(wrong, at) <= track.proof.error
 
@@ -187,9 +198,9 @@ def test_the_batch_proves_the_same():
     ]  # fmt: skip
     lengths = np.array([tuple(WRIST.assembly_at(pose)) for pose in found])
     start = np.array([stages.unknowns(pose, SIZE) for pose in found]).T
-    tracks = batch.solve(KNOWN, lengths, start)
+    tracks = batch.solve_rows(KNOWN, lengths, start)
     for row, pose in enumerate(found):
-        single = tracking.solve(
+        single = tracking.solve_planar(
             KNOWN, quadratics.right_side(KNOWN, lengths[row]), stages.unknowns(pose, SIZE)
         )
         assert tracks.unique[row] == pytest.approx(single.proof.unique, rel=1e-6)

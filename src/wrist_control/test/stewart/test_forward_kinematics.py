@@ -177,7 +177,7 @@ def test_the_mirror_image_below_the_base_is_never_taken_for_the_pose(pose):
 def test_a_low_platform_is_solved_six_legs_at_a_time():
     low = Pose(turned(IDENTITY, (0.5, 0.2, 0.3), 1.0), (0.02, 0.01, 0.02))
     near = Pose(turned(IDENTITY, (0.5, 0.21, 0.3), 1.0), (0.021, 0.01, 0.021))
-    assert not tracking.leads(stages.unknowns(low, SIZE))
+    assert not tracking.is_high_enough(stages.unknowns(low, SIZE))
     solution = FK.solve(lengths_of(low), near)
     assert solution.pose is not None
     assert apart(solution.pose, low) <= solution.error_bound < 1e-11
@@ -280,8 +280,8 @@ def test_the_two_ways_agree_on_the_pose_and_both_bounds_hold():
     for pose in random_poses(20, 0.08, 0.5):
         lengths = lengths_of(pose)
         start = stages.unknowns(pose, SIZE)
-        fast = tracking.solve(FK.planar, quadratics.right_side(FK.planar, lengths), start)
-        slow = general.solve(any_platform, general.squares(any_platform, lengths), start)
+        fast = tracking.solve_planar(FK.planar, quadratics.right_side(FK.planar, lengths), start)
+        slow = general.solve_general(any_platform, general.squares(any_platform, lengths), start)
         assert math.dist(fast.at, slow.at) <= fast.proof.error + slow.proof.error
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from wrist_control.rotations import Pose, about_z, product, turned
+from wrist_control.rotations import Pose, Poses, about_z, product, turned
 from wrist_control.stewart.stages import Track
 
 TILTS = (0.0, 0.5, 1.0, 1.5, 2.2)
@@ -17,8 +17,8 @@ YAWS = 8
 HEIGHTS = (0.4, 0.8, 1.2)
 
 
-def seeds(home: Pose) -> Pose:
-    """Return poses all over the workspace to search from, as a `Pose` of arrays.
+def seeds(home: Pose) -> Poses:
+    """Return poses all over the workspace to search from.
 
     Every combination of tilt, direction of tilt, turn about the platform's normal, and height.
     """
@@ -33,7 +33,7 @@ def seeds(home: Pose) -> Pose:
                 for yaw in range(YAWS):
                     quaternions.append(product(about_z(math.tau * yaw / YAWS), tilted))
                     positions.append((x, y, height * z))
-    return Pose(np.array(quaternions), np.array(positions))  # type: ignore[arg-type]
+    return Poses(np.array(quaternions), np.array(positions))
 
 
 def different(tracks: Sequence[Track]) -> list[Track]:

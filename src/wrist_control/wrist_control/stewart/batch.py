@@ -9,18 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.rotations import Pose, Quaternion, quaternion_of
-from wrist_control.stewart.certificate import BRANCH, Proof
+from wrist_control.rotations import Pose, Poses, quaternion_of
+from wrist_control.stewart.certificate import BRANCH_LIMIT, ROUNDING, Proof
 from wrist_control.stewart.quadratics import (
     Coefficients,
+    Matrix,
     Nine,
-    Rows,
-    beta,
-    inverse,
-    point,
+    kantorovich_beta,
+    newton_inverse,
+    unknowns_and_residual,
 )
-from wrist_control.stewart.stages import Track, unknowns
-from wrist_control.stewart.tracking import LOW, MOST_CORRECTIONS, ROUNDING, SHARP
+from wrist_control.stewart.stages import MOST_CORRECTIONS, SMALLEST_TRACE, Track, unknowns
+from wrist_control.stewart.tracking import LOW, SHARP
 
 # So many at a time stay in the processor's cache.
 CHUNK = 8192
@@ -53,10 +53,10 @@ class Roots(NamedTuple):
     left: Array
     iterations: Array
     origin: Nine[Array]
-    rows: Rows[Array]
+    M_inverse: Matrix[Array]
 
 
-def checked(lengths: Array) -> Array:
+def checked_lengths(lengths: Array) -> Array:
     """Return lengths as an array of shape (n, 6).
 
     Raises:
@@ -75,41 +75,28 @@ def checked(lengths: Array) -> Array:
     return lengths
 
 
-def checked_near(near: Pose, n: int) -> Pose:
-    """Return the poses before n answers: one, or one for each.
+def checked_near(near: Pose | Poses, n: int) -> Poses:
+    """Return the poses before n answers: one row for all, or one for each.
 
     Raises:
         InvalidValueError: Another number of poses, or shapes that are none.
     """
     shapes = np.shape(near.quaternion), np.shape(near.position)
     if shapes in (((4,), (3,)), ((n, 4), (n, 3))):
-        return near
+        return Poses(np.atleast_2d(near.quaternion), np.atleast_2d(near.position))
     raise InvalidValueError(
         f'near has quaternions of shape {shapes[0]} and positions of shape {shapes[1]}; give one '
         f'pose, or one for each of the {n} rows.'
     )
 
 
-def empty(n: int) -> tuple[Array, ...]:
-    """Return room for n answers, none of them solved (status 3, DIVERGED)."""
-    nan = math.nan
-    return (
-        np.full((n, 4), nan),
-        np.full((n, 3), nan),
-        np.full(n, 3),
-        np.zeros(n, dtype=int),
-        np.full(n, math.inf),
-        np.zeros(n),
-    )
-
-
-def starts(near: Pose, size: float, part: slice = slice(None)) -> Array:
+def unknowns_of(poses: Poses, size: float, part: slice = slice(None)) -> Array:
     """Return the unknowns at one pose, shape (9, 1), or at part of many, shape (9, n)."""
-    quaternions, positions = np.atleast_2d(near.quaternion), np.atleast_2d(near.position)
+    quaternions, positions = poses
     if len(quaternions) > 1:
         quaternions, positions = quaternions[part], positions[part]
-    columns = Pose(quaternions.T, positions.T)  # type: ignore[arg-type]
-    return np.stack(np.broadcast_arrays(*unknowns(columns, size)))
+    (a1, a2, a3, a4), (x, y, z) = quaternions.T, positions.T
+    return np.stack(unknowns(((a1, a2, a3, a4), (x, y, z)), size))
 
 
 def chunks(n: int) -> Iterator[slice]:
@@ -119,12 +106,12 @@ def chunks(n: int) -> Iterator[slice]:
 
 def right_sides(known: Coefficients, lengths: Array) -> Array:
     """Return what lengths, m, shape (n, 6), say, shape (6, n)."""
-    offset = np.array(known.offset)[:, None]
-    right: Array = np.array(known.squares) @ (lengths * lengths).T + offset
+    offset = np.array(known.constant)[:, None]
+    right: Array = np.array(known.per_square) @ (lengths * lengths).T + offset
     return right
 
 
-def solve(known: Coefficients, lengths: Array, start: Array) -> Tracks:
+def solve_rows(known: Coefficients, lengths: Array, start: Array) -> Tracks:
     """Solve each row of lengths from its start, and prove what was found.
 
     Args:
@@ -146,28 +133,28 @@ def newton(known: Coefficients, right: Array, start: Array) -> Roots:
     iterations = np.full(right.shape[1], MOST_CORRECTIONS)
     last: Array | None = None
     for count in range(MOST_CORRECTIONS):
-        at, e22, e23, e33 = point(tuple(right), known.free, u1, u2, v2, side)
+        at, e22, e23, e33 = unknowns_and_residual(tuple(right), known.per_t, u1, u2, v2, side)
         left = np.sqrt(e22 * e22 + 2.0 * e23 * e23 + e33 * e33)
         ended = ~(left > 0.125 * floor)  # rows without a root hold nan, and end as well
         if last is not None:
             ended |= (left < floor) & (left > 0.5 * last)
         iterations = np.where(ended, np.minimum(iterations, count), MOST_CORRECTIONS)
         if last is None or np.any((left > SHARP) & ~ended):
-            origin, rows = at, inverse(known.free, at)
+            origin, M_inverse = at, newton_inverse(known.per_t, at)
         if ended.all():
             break
-        (a1, a2, a3), (b1, b2, b3), (c1, c2, c3) = rows
-        u1 = u1 - (a1 * e22 + a2 * e23 + a3 * e33)
-        u2 = u2 - (b1 * e22 + b2 * e23 + b3 * e33)
-        v2 = v2 - (c1 * e22 + c2 * e23 + c3 * e33)
+        (u1_22, u1_23, u1_33), (u2_22, u2_23, u2_33), (v2_22, v2_23, v2_33) = M_inverse
+        u1 = u1 - (u1_22 * e22 + u1_23 * e23 + u1_33 * e33)
+        u2 = u2 - (u2_22 * e22 + u2_23 * e23 + u2_33 * e33)
+        v2 = v2 - (v2_22 * e22 + v2_23 * e23 + v2_33 * e33)
         last = left
-    return Roots(at, left + floor, iterations, origin, rows)
+    return Roots(at, left + floor, iterations, origin, M_inverse)
 
 
 def prove(known: Coefficients, roots: Roots, start: Array) -> tuple[Array, Array, Array]:
-    """Return error, uniqueness, and whether the start leads there: `tracking.solve` for many."""
-    at, left, iterations, origin, rows = roots
-    bound: Array = beta(known, origin, rows)
+    """Return error, uniqueness, and whether the start leads there, as `tracking` does for one."""
+    at, left, iterations, origin, M_inverse = roots
+    bound: Array = kantorovich_beta(known, origin, M_inverse)
     away = _distance(origin, at)
     slack = 1.0 - 2.0 * bound * away
     bound = np.where(slack > 0.0, bound / slack, math.inf)
@@ -176,9 +163,8 @@ def prove(known: Coefficients, roots: Roots, start: Array) -> tuple[Array, Array
     sound = (discriminant > 0.0) & (iterations < MOST_CORRECTIONS)
     error = np.where(sound, 2.0 * bound * left / root, math.inf)
     unique = np.where(sound, 0.5 * root / bound, 0.0)
-    z, u3, v3 = np.abs(start[6]), np.abs(start[7]), np.abs(start[8])
-    leads = (z > LOW) & (z > LOW * u3) & (z > LOW * v3)
-    return error, unique, leads & (bound * (_distance(start, at) + error) <= BRANCH)
+    followed = (np.abs(start[6]) > LOW) & (bound * (_distance(start, at) + error) <= BRANCH_LIMIT)
+    return error, unique, followed
 
 
 def _distance(one: Nine[Array] | Array, other: Nine[Array] | Array) -> Array:
@@ -190,27 +176,25 @@ def _distance(one: Nine[Array] | Array, other: Nine[Array] | Array) -> Array:
     return distance
 
 
-def poses(at: Array, size: float) -> tuple[Array, Array]:
-    """Return quaternions, shape (n, 4), and positions in m, shape (n, 3), of unknowns."""
+def poses_of(at: Array, size: float) -> Poses:
+    """Return the poses of unknowns, shape (9, n): `stages.pose_of` for many."""
     x, y, u1, v1, u2, v2, z, u3, v3 = at
     w1, w2, w3 = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
     trace = 1.0 + u1 + v2 + w3
     quaternion = np.stack([trace, u2 - v1, w1 - u3, v3 - w2], axis=1)
     quaternion /= np.sqrt((quaternion * quaternion).sum(axis=1))[:, None]
-    for far in np.flatnonzero(trace <= 0.5):
+    for far in np.flatnonzero(trace <= SMALLEST_TRACE):
         u, v = at[[2, 4, 7], far], at[[3, 5, 8], far]
         quaternion[far] = quaternion_of(np.array([u, v, np.cross(u, v)]))
-    return quaternion, size * np.stack([x, y, z], axis=1)
+    return Poses(quaternion, size * np.stack([x, y, z], axis=1))
 
 
-def row(near: Pose, index: int) -> Pose:
+def pose_in_row(poses: Poses, row: int) -> Pose:
     """Return one pose of many, or the only one."""
-    quaternion, position = np.atleast_2d(near.quaternion), np.atleast_2d(near.position)
-    index = index if len(quaternion) > 1 else 0
-    a1, a2, a3, a4 = quaternion[index].tolist()
-    x, y, z = position[index].tolist()
-    found: Quaternion = (a1, a2, a3, a4)
-    return Pose(found, (x, y, z))
+    index = row if len(poses.quaternion) > 1 else 0
+    a1, a2, a3, a4 = poses.quaternion[index].tolist()
+    x, y, z = poses.position[index].tolist()
+    return Pose((a1, a2, a3, a4), (x, y, z))
 
 
 def tracks_of(tracks: Tracks) -> list[Track]:

@@ -4,101 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from enum import IntEnum
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
-from wrist_control.rotations import Pose
+from wrist_control.rotations import Pose, Poses
 from wrist_control.stewart import assembly, batch, general, quadratics, stages, tracking
-from wrist_control.stewart.certificate import new
+from wrist_control.stewart.certificate import make_tuple
 from wrist_control.stewart.geometry import Anchors, hadamard_ratio_at
 from wrist_control.stewart.measurement import check_lengths, impossible_pair
+from wrist_control.stewart.solution import ColdStart, Solution, Solutions, Status
 from wrist_control.stewart.stages import Track
 
 # Nearer than this share of the platform's size to a second root, the two are hard to tell apart.
 NEAR_LOCK = 0.01
 # What rounding adds to an answer after its proof, as a share of its largest number.
 LAST_ROUNDING = 16.0 * 2.0**-52
-
-
-class Status(IntEnum):
-    """What is known of an answer.
-
-    CONVERGED: the pose is proved, and proved to be the one that `near` leads to.
-    UNPROVEN: the pose fits the lengths, but it may belong to another assembly than `near`.
-    UNREACHABLE: no pose fits the lengths; there is none in the answer.
-    DIVERGED: no pose was found; there is none in the answer.
-    NEAR_SINGULAR: the pose fits the lengths, but another one is too close to tell them apart.
-    """
-
-    CONVERGED = 0
-    UNPROVEN = 1
-    UNREACHABLE = 2
-    DIVERGED = 3
-    NEAR_SINGULAR = 4
+SAME_POSE = 1e-6
 
 
 # Looking up a member of an enumeration costs as much as a call.
 CONVERGED, UNPROVEN, NEAR_SINGULAR = Status.CONVERGED, Status.UNPROVEN, Status.NEAR_SINGULAR
-
-
-class Solution(NamedTuple):
-    """An answer with its proof.
-
-    Distances between poses are ‖(Δd, L Δu, L Δv)‖, m: of the position and of the platform's x and
-    y axes, with the characteristic length L of the wrist (`Stewart.size`). A pose within e has
-    its position within e, and is turned by less than e / L rad.
-
-    Attributes:
-        pose: The platform's pose in base axes; None when there is none to give.
-        status: What is known of it.
-        iterations: Newton steps made, on all stages of the way.
-        error_bound: The true pose is within this distance, m; inf when that is not proved.
-        unique_radius: No other pose within this distance fits the lengths, m; 0 when not proved.
-    """
-
-    pose: Pose | None
-    status: Status
-    iterations: int
-    error_bound: float
-    unique_radius: float
-
-
-class Solutions(NamedTuple):
-    """Answers as arrays, one row each; a row without a pose is nan.
-
-    Attributes:
-        quaternion: Barker's, shape (n, 4).
-        position: m, shape (n, 3).
-        status: Values of `Status`, shape (n,).
-        iterations: Shape (n,).
-        error_bound: m, shape (n,).
-        unique_radius: m, shape (n,).
-    """
-
-    quaternion: np.ndarray
-    position: np.ndarray
-    status: np.ndarray
-    iterations: np.ndarray
-    error_bound: np.ndarray
-    unique_radius: np.ndarray
-
-
-class ColdStart(NamedTuple):
-    """What lengths alone say, without a pose before.
-
-    Attributes:
-        solution: The pose that home leads to; the nearest of those found where it leads to none.
-        others: Other poses that fit the lengths, above the base and on the same side of lock. A
-            search found them: there may be more.
-        message: One sentence for the operator.
-    """
-
-    solution: Solution
-    others: tuple[Solution, ...]
-    message: str
 
 
 class ForwardKinematics:
@@ -151,7 +77,7 @@ class ForwardKinematics:
             start, tangent = stages.unknowns(self.home if near is None else near, self.size), None
         if self.planar is not None:
             goal = quadratics.right_side(self.planar, lengths)
-            track = tracking.solve(self.planar, goal, start, tangent)
+            track = tracking.solve_planar(self.planar, goal, start, tangent)
             if track is not None and track.followed:
                 solution = self._solution(track)
                 self._last = solution.pose, track
@@ -171,16 +97,16 @@ class ForwardKinematics:
         track = None
         if self.planar is not None:
             track, start = stages.follow(
-                partial(tracking.solve, self.planar),
-                partial(quadratics.own_side, self.planar),
+                partial(tracking.solve_planar, self.planar),
+                partial(quadratics.right_side_at, self.planar),
                 quadratics.right_side(self.planar, lengths),
                 start,
             )
             if (track is not None and track.followed) or abs(start[6]) > 2.0 * tracking.LOW:
                 return track
         other, _ = stages.follow(
-            partial(general.solve, self._any),
-            partial(general.own_squares, self._any),
+            partial(general.solve_general, self._any),
+            partial(general.squares_at, self._any),
             general.squares(self._any, lengths),
             start,
         )
@@ -195,33 +121,35 @@ class ForwardKinematics:
         status = CONVERGED if followed else UNPROVEN
         if unique < NEAR_LOCK:
             status = NEAR_SINGULAR
-        return new(Solution, (stages.pose_of(at, size), status, iterations, bound, size * unique))
+        return make_tuple(
+            Solution, (stages.pose_of(at, size), status, iterations, bound, size * unique)
+        )
 
-    def solve_batch(self, lengths: np.ndarray, near: Pose | None = None) -> Solutions:
+    def solve_batch(self, lengths: np.ndarray, near: Pose | Poses | None = None) -> Solutions:
         """Return the poses of many sets of lengths.
 
         Args:
             lengths: m, shape (n, 6).
-            near: One pose before for all, or one for each, as a `Pose` of arrays of shapes
-                (n, 4) and (n, 3); home when not given.
+            near: One pose before for all, or one for each; home when not given.
 
         Raises:
             InvalidValueError: Not of those shapes, or a length that is not finite and above 0.
         """
-        lengths = batch.checked(lengths)
-        near = self.home if near is None else batch.checked_near(near, len(lengths))
-        found = Solutions(*batch.empty(len(lengths)))
+        lengths = batch.checked_lengths(lengths)
+        before = batch.checked_near(self.home if near is None else near, len(lengths))
+        found = Solutions.unsolved(len(lengths))
         if self.planar is not None:
             for part in batch.chunks(len(lengths)):
-                start = batch.starts(near, self.size, part)
-                self._fill(found, part, batch.solve(self.planar, lengths[part], start))
+                start = batch.unknowns_of(before, self.size, part)
+                self._fill(found, part, batch.solve_rows(self.planar, lengths[part], start))
         for row in np.flatnonzero(found.status == Status.DIVERGED).tolist():
-            self._put(found, row, self.solve(tuple(lengths[row].tolist()), batch.row(near, row)))
+            one = batch.pose_in_row(before, row)
+            found.put(row, self.solve(tuple(lengths[row].tolist()), one))
         return found
 
     def _fill(self, found: Solutions, part: slice, tracks: batch.Tracks) -> None:
         at, size = tracks.at, self.size
-        found.quaternion[part], found.position[part] = batch.poses(at, size)
+        found.quaternion[part], found.position[part] = batch.poses_of(at, size)
         found.iterations[part] = tracks.iterations
         reach = 1.0 + np.abs(at[0]) + np.abs(at[1]) + np.abs(at[6])
         found.error_bound[part] = size * (3.0 * tracks.error + LAST_ROUNDING * reach)
@@ -229,15 +157,6 @@ class ForwardKinematics:
         status = np.where(tracks.unique < NEAR_LOCK, Status.NEAR_SINGULAR, Status.CONVERGED)
         # What the fast way does not prove is solved again one by one.
         found.status[part] = np.where(tracks.followed, status, Status.DIVERGED)
-
-    @staticmethod
-    def _put(found: Solutions, row: int, solution: Solution) -> None:
-        pose = solution.pose
-        found.quaternion[row] = math.nan if pose is None else pose.quaternion
-        found.position[row] = math.nan if pose is None else pose.position
-        found.status[row], found.iterations[row] = solution.status, solution.iterations
-        found.error_bound[row] = solution.error_bound
-        found.unique_radius[row] = solution.unique_radius
 
     def assemblies(self, lengths: Sequence[float]) -> tuple[Solution, ...]:
         """Return the different poses above the base that a search finds for lengths.
@@ -249,14 +168,14 @@ class ForwardKinematics:
         starts = assembly.seeds(self.home)
         many = np.tile(np.asarray(lengths, dtype=float), (len(starts.position), 1))
         if self.planar is not None:
-            tracks = batch.solve(self.planar, many, batch.starts(starts, self.size))
+            tracks = batch.solve_rows(self.planar, many, batch.unknowns_of(starts, self.size))
             candidates = batch.tracks_of(tracks)
         else:
             goal = general.squares(self._any, lengths)
             candidates = [
                 track
                 for row in range(len(many))
-                if (track := general.solve(self._any, goal, self._seed(starts, row)))
+                if (track := general.solve_general(self._any, goal, self._seed(starts, row)))
             ]
         different = assembly.different(candidates)
         return tuple(
@@ -265,8 +184,8 @@ class ForwardKinematics:
             if track.at[6] > 0.0
         )
 
-    def _seed(self, starts: Pose, row: int) -> stages.Unknowns:
-        return stages.unknowns(batch.row(starts, row), self.size)
+    def _seed(self, starts: Poses, row: int) -> stages.Unknowns:
+        return stages.unknowns(batch.pose_in_row(starts, row), self.size)
 
     def cold_start(self, lengths: Sequence[float]) -> ColdStart:
         """Return the pose of lengths when there is no pose before, and whether others fit too.
@@ -276,39 +195,27 @@ class ForwardKinematics:
         """
         solution = self.solve(lengths)
         if solution.status == Status.UNREACHABLE:
-            return ColdStart(solution, (), 'No pose fits these lengths; check the leg readings.')
+            return ColdStart.told(solution, ())
         found = self.assemblies(lengths)
         if solution.pose is None and found:
             solution = min(found, key=lambda other: self._apart(other, self.home))
         pose = solution.pose
         if pose is None:
-            return ColdStart(solution, (), 'No pose was found; check the leg readings.')
-        side = self._hold(pose)
+            return ColdStart.told(solution, ())
+        side = self._hadamard_ratio(pose)
         others = tuple(
             other
             for other in found
-            if self._apart(other, pose) > 1e-6 * self.size
+            if self._apart(other, pose) > SAME_POSE * self.size
             and other.pose is not None
-            and self._hold(other.pose) * side > 0.0
+            and self._hadamard_ratio(other.pose) * side > 0.0
         )
-        return ColdStart(solution, others, _message(solution, len(others)))
+        return ColdStart.told(solution, others)
 
-    def _hold(self, pose: Pose) -> float:
+    def _hadamard_ratio(self, pose: Pose) -> float:
         return hadamard_ratio_at(self.platform, self.base, self.size, pose)
 
     def _apart(self, solution: Solution, pose: Pose) -> float:
         assert solution.pose is not None
         one, other = (stages.unknowns(p, self.size) for p in (solution.pose, pose))
         return self.size * math.dist(one, other)
-
-
-def _message(solution: Solution, others: int) -> str:
-    if solution.status == Status.CONVERGED:
-        known = 'The pose is proved to be the one that home leads to'
-    elif solution.status == Status.NEAR_SINGULAR:
-        known = 'The platform is near lock, and its pose is not sure'
-    else:
-        known = 'A pose fits, but home does not lead to it'
-    if not others:
-        return f'{known}; a search found no other.'
-    return f'{known}; the lengths alone also fit {others} other pose(s): drive home to be sure.'

@@ -14,16 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from wrist_control.rotations import Pose, to_forearm, turned
-from wrist_control.stewart.certificate import BRANCH, NOTHING, kantorovich
-from wrist_control.stewart.geometry import Anchors, legs, length, line
+from wrist_control.stewart.certificate import BRANCH_LIMIT, NOTHING_PROVED, ROUNDING, kantorovich
+from wrist_control.stewart.geometry import SHORTEST, Anchors, legs, length, line
 from wrist_control.stewart.quadratics import Six
-from wrist_control.stewart.stages import Track, Unknowns, pose_of, unknowns
-
-# Rounding of one squared length, as a share of the largest: generous.
-ROUNDING = 32.0 * 2.0**-52
-MOST_CORRECTIONS = 16
-# A leg shorter than this share of the platform's size has no direction to speak of.
-SHORTEST = 1e-6
+from wrist_control.stewart.stages import MOST_CORRECTIONS, Track, Unknowns, pose_of, unknowns
 
 
 class Platforms(NamedTuple):
@@ -36,10 +30,12 @@ class Platforms(NamedTuple):
 
 def scaled(platform: Anchors, base: Anchors, size: float) -> Platforms:
     """Return anchors as shares of the characteristic length."""
-    p, b = (
-        tuple((x / size, y / size, z / size) for x, y, z in points) for points in (platform, base)
-    )
-    return Platforms(p, b, size)  # type: ignore[arg-type]
+    return Platforms(_scaled(platform, size), _scaled(base, size), size)
+
+
+def _scaled(points: Anchors, size: float) -> Anchors:
+    a, b, c, d, e, f = ((x / size, y / size, z / size) for x, y, z in points)
+    return (a, b, c, d, e, f)
 
 
 def squares(known: Platforms, lengths: Sequence[float]) -> Six[float]:
@@ -48,13 +44,13 @@ def squares(known: Platforms, lengths: Sequence[float]) -> Six[float]:
     return (a, b, c, d, e, f)
 
 
-def own_squares(known: Platforms, at: Unknowns) -> Six[float]:
+def squares_at(known: Platforms, at: Unknowns) -> Six[float]:
     """Return the goal that the lengths at an assembled pose are."""
     a, b, c, d, e, f = (length(leg) ** 2 for leg in legs(*known[:2], pose_of(at, 1.0)))
     return (a, b, c, d, e, f)
 
 
-def solve(known: Platforms, goal: Six[float], start: Unknowns) -> Track | None:
+def solve_general(known: Platforms, goal: Six[float], start: Unknowns) -> Track | None:
     """Correct until rounding is all that is left, and prove where that is."""
     if not min(goal) > 0.0:
         return None
@@ -90,8 +86,8 @@ def _moved(pose: Pose, vx: float, vy: float, vz: float, p: float, q: float, r: f
 def _proved(known: Platforms, pose: Pose, start: Unknowns, count: int, left: float) -> Track:
     at = unknowns(pose, 1.0)
     size, legs_size = bounds(known, pose)
-    proof = kantorovich(size, legs_size * left) if math.isfinite(size) else NOTHING
-    followed = size * (_distance(start, at) + proof.error) <= BRANCH
+    proof = kantorovich(size, legs_size * left) if math.isfinite(size) else NOTHING_PROVED
+    followed = size * (_distance(start, at) + proof.error) <= BRANCH_LIMIT
     return Track(at, count, proof, followed)
 
 

@@ -17,6 +17,8 @@ from wrist_control.rotations import Pose, Vector, direction_cosines
 Anchors = tuple[Vector, Vector, Vector, Vector, Vector, Vector]
 # A leg's part in holding the platform: its unit direction and moment, in platform axes.
 Line = tuple[float, float, float, float, float, float]
+# A leg shorter than this share of the platform's size has no direction to speak of.
+SHORTEST = 1e-6
 
 
 def ring(radius: float, angle: float) -> Anchors:

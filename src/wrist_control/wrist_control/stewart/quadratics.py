@@ -9,10 +9,18 @@ is where six quadratics vanish, the entries of the symmetric matrix
     E = [[s, m, n], [m, 1, 0], [n, 0, 1]] − Xᵀ X,    X = [d u v].
 
 The first row of E gives h, and the other three entries are solved for t by Newton steps, each one
-3×3 solve without trigonometry. docs/equations.md, [Nguyen1991].
+3×3 solve without trigonometry. Equations (S1) to (S8) of docs/equations.md, [Nguyen1991].
 
 The arithmetic here takes floats, or arrays of one shape. Lengths are shares of a characteristic
-length.
+length. Names, the same in every function:
+
+    x_u1, x_u2, x_v2      change of x per u₁, u₂, v₂, and so for each of the six
+    x_q1 … x_q6, x_0      change of x per squared length, and x where these and t are zero
+    e22, e23, e33         entries of E, counted from 1
+    u1_22, u1_23, u1_33   change of u₁ per entry of E, and so for each of t: the rows of M⁻¹
+    alpha, gamma          u₃ / z and v₃ / z, in a = (−α, 1, 0) and b = (−γ, 0, 1)
+    ax, ay, bx, by        x and y of X a = u − α d and of X b = v − γ d; their z is 0
+    aa_u1, ab_u1, bb_u1   change of aᵀE a / 2, aᵀE b and bᵀE b / 2 per u₁, and so per each of t
 """
 
 from __future__ import annotations
@@ -35,25 +43,25 @@ Nine = tuple[
     Number, Number, Number, Number, Number, Number, Number, Number, Number
 ]  # x, y, u1, v1, u2, v2, z, u3, v3
 Triple = tuple[float, float, float]
-Rows = tuple[Three[Number], Three[Number], Three[Number]]
-# Change of x, y, v1, s, m, n per t: six rows.
-Free = tuple[Triple, Triple, Triple, Triple, Triple, Triple]
+Matrix = tuple[Three[Number], Three[Number], Three[Number]]  # row by row
+# Change of x, y, v1, s, m, n per u1, u2, v2: six rows.
+PerT = tuple[Triple, Triple, Triple, Triple, Triple, Triple]
 
 
 class Coefficients(NamedTuple):
-    """The nine numbers of the pose as linear functions of squared lengths, m², and t.
+    """(x, y, v₁, s, m, n) as linear functions of squared lengths, m², and t.
 
     Attributes:
-        squares: Of (x, y, v₁, s, m, n) per squared length, six rows of six.
-        offset: Of the same where lengths and t are zero.
-        free: Of the same per t.
-        flat_norm: The largest ‖(Δx, Δy, Δu₁, Δv₁, Δu₂, Δv₂)‖ per ‖Δt‖.
-        s_norm: The largest ‖(Δs, √2 Δm, √2 Δn)‖ per ‖Δt‖.
+        per_square: Change per squared length, six rows of six.
+        constant: What they are where lengths and t are zero.
+        per_t: Change per t.
+        flat_norm: c₁ of (S7), the largest ‖(Δx, Δy, Δu₁, Δv₁, Δu₂, Δv₂)‖ per ‖Δt‖.
+        s_norm: c₂ of (S7), the largest ‖(Δs, √2 Δm, √2 Δn)‖ per ‖Δt‖.
     """
 
-    squares: tuple[tuple[float, ...], ...]
-    offset: tuple[float, ...]
-    free: Free
+    per_square: tuple[tuple[float, ...], ...]
+    constant: tuple[float, ...]
+    per_t: PerT
     flat_norm: float
     s_norm: float
 
@@ -61,30 +69,67 @@ class Coefficients(NamedTuple):
 def coefficients(platform: Anchors, base: Anchors, size: float) -> Coefficients | None:
     """Return the coefficients of a platform; None where these six numbers cannot be solved for.
 
-    Six times [Nguyen1991], eq. (16), with anchors in the planes z = 0.
+    (S1), which is six times [Nguyen1991], eq. (16), with anchors in the planes z = 0.
     """
     p, b = np.array(platform) / size, np.array(base) / size
     if np.abs(p[:, 2]).max() > 0.0 or np.abs(b[:, 2]).max() > 0.0:
         return None
     px, py, bx, by = p[:, 0], p[:, 1], b[:, 0], b[:, 1]
-    solved = np.stack([-2 * bx, -2 * by, -2 * bx * py, np.ones(6), 2 * px, 2 * py], axis=1)
-    if np.linalg.cond(solved) > LARGEST_CONDITION:
+    squares_per_six = np.stack(
+        [-2 * bx, -2 * by, -2 * bx * py, np.ones(6), 2 * px, 2 * py], axis=1
+    )
+    if np.linalg.cond(squares_per_six) > LARGEST_CONDITION:
         return None
-    inverse = np.linalg.inv(solved)
-    free = inverse @ (2.0 * np.stack([bx * px, by * px, by * py], axis=1))
+    six_per_square = np.linalg.inv(squares_per_six)
+    six_per_t = six_per_square @ (2.0 * np.stack([bx * px, by * px, by * py], axis=1))
     weight = np.array([[1.0], [math.sqrt(2.0)], [math.sqrt(2.0)]])
-    r1, r2, r3, r4, r5, r6 = ((float(a), float(b), float(c)) for a, b, c in free)
+    x, y, v1, s, m, n = ((float(u1), float(u2), float(v2)) for u1, u2, v2 in six_per_t)
+    radii = (p * p).sum(axis=1) + (b * b).sum(axis=1)
     return Coefficients(
-        squares=tuple(tuple(float(x) for x in row) for row in inverse / size**2),
-        offset=tuple(float(x) for x in -inverse @ ((p * p).sum(axis=1) + (b * b).sum(axis=1))),
-        free=(r1, r2, r3, r4, r5, r6),
-        flat_norm=float(np.linalg.norm(np.vstack([free[:3], np.eye(3)]), 2)),
-        s_norm=float(np.linalg.norm(weight * free[3:], 2)),
+        per_square=tuple(tuple(float(x) for x in row) for row in six_per_square / size**2),
+        constant=tuple(float(x) for x in -six_per_square @ radii),
+        per_t=(x, y, v1, s, m, n),
+        flat_norm=float(np.linalg.norm(np.vstack([six_per_t[:3], np.eye(3)]), 2)),
+        s_norm=float(np.linalg.norm(weight * six_per_t[3:], 2)),
     )
 
 
-def point(
-    right: Six[Number], free: Free, u1: Number, u2: Number, v2: Number, side: Number
+def right_side(known: Coefficients, lengths: Sequence[float]) -> Six[float]:
+    """Return what six lengths, m, say: x, y, v₁, s, m, n where t is zero. (S1), solved."""
+    l1, l2, l3, l4, l5, l6 = lengths
+    q1, q2, q3, q4, q5, q6 = l1 * l1, l2 * l2, l3 * l3, l4 * l4, l5 * l5, l6 * l6
+    x_0, y_0, v1_0, s_0, m_0, n_0 = known.constant
+    (
+        (x_q1, x_q2, x_q3, x_q4, x_q5, x_q6),
+        (y_q1, y_q2, y_q3, y_q4, y_q5, y_q6),
+        (v1_q1, v1_q2, v1_q3, v1_q4, v1_q5, v1_q6),
+        (s_q1, s_q2, s_q3, s_q4, s_q5, s_q6),
+        (m_q1, m_q2, m_q3, m_q4, m_q5, m_q6),
+        (n_q1, n_q2, n_q3, n_q4, n_q5, n_q6),
+    ) = known.per_square
+    return (
+        x_q1 * q1 + x_q2 * q2 + x_q3 * q3 + x_q4 * q4 + x_q5 * q5 + x_q6 * q6 + x_0,
+        y_q1 * q1 + y_q2 * q2 + y_q3 * q3 + y_q4 * q4 + y_q5 * q5 + y_q6 * q6 + y_0,
+        v1_q1 * q1 + v1_q2 * q2 + v1_q3 * q3 + v1_q4 * q4 + v1_q5 * q5 + v1_q6 * q6 + v1_0,
+        s_q1 * q1 + s_q2 * q2 + s_q3 * q3 + s_q4 * q4 + s_q5 * q5 + s_q6 * q6 + s_0,
+        m_q1 * q1 + m_q2 * q2 + m_q3 * q3 + m_q4 * q4 + m_q5 * q5 + m_q6 * q6 + m_0,
+        n_q1 * q1 + n_q2 * q2 + n_q3 * q3 + n_q4 * q4 + n_q5 * q5 + n_q6 * q6 + n_0,
+    )
+
+
+def right_side_at(known: Coefficients, at: Nine[float]) -> Six[float]:
+    """Return what the lengths at an assembled pose say."""
+    x, y, u1, v1, u2, v2, z, u3, v3 = at
+    s, m, n = x * x + y * y + z * z, x * u1 + y * u2 + z * u3, x * v1 + y * v2 + z * v3
+    x_0, y_0, v1_0, s_0, m_0, n_0 = (
+        number - per_u1 * u1 - per_u2 * u2 - per_v2 * v2
+        for number, (per_u1, per_u2, per_v2) in zip((x, y, v1, s, m, n), known.per_t, strict=True)
+    )
+    return (x_0, y_0, v1_0, s_0, m_0, n_0)
+
+
+def unknowns_and_residual(
+    right: Six[Number], per_t: PerT, u1: Number, u2: Number, v2: Number, side: Number
 ) -> tuple[Nine[Number], Number, Number, Number]:
     """Return all unknowns at some t, with E's first row zero, and its entries 22, 23 and 33.
 
@@ -92,20 +137,30 @@ def point(
 
     Args:
         right: What the lengths say: x, y, v₁, s, m, n where t is zero.
-        free: The change of the same per t.
+        per_t: The change of the same per t.
         u1: Of the three unknowns t, the first;
         u2: the second;
         v2: and the third.
         side: 1 above the base, −1 below.
     """
     x, y, v1, s, m, n = right
-    (a1, a2, a3), (b1, b2, b3), (c1, c2, c3), (d1, d2, d3), (e1, e2, e3), (f1, f2, f3) = free
-    x = x + a1 * u1 + a2 * u2 + a3 * v2
-    y = y + b1 * u1 + b2 * u2 + b3 * v2
-    v1 = v1 + c1 * u1 + c2 * u2 + c3 * v2
-    z = side * (s + d1 * u1 + d2 * u2 + d3 * v2 - x * x - y * y) ** 0.5
-    u3 = (m + e1 * u1 + e2 * u2 + e3 * v2 - x * u1 - y * u2) / z
-    v3 = (n + f1 * u1 + f2 * u2 + f3 * v2 - x * v1 - y * v2) / z
+    (
+        (x_u1, x_u2, x_v2),
+        (y_u1, y_u2, y_v2),
+        (v1_u1, v1_u2, v1_v2),
+        (s_u1, s_u2, s_v2),
+        (m_u1, m_u2, m_v2),
+        (n_u1, n_u2, n_v2),
+    ) = per_t
+    # (S1), solved for six of the nine
+    x = x + x_u1 * u1 + x_u2 * u2 + x_v2 * v2
+    y = y + y_u1 * u1 + y_u2 * u2 + y_v2 * v2
+    v1 = v1 + v1_u1 * u1 + v1_u2 * u2 + v1_v2 * v2
+    # (S3), the first row of E
+    z = side * (s + s_u1 * u1 + s_u2 * u2 + s_v2 * v2 - x * x - y * y) ** 0.5
+    u3 = (m + m_u1 * u1 + m_u2 * u2 + m_v2 * v2 - x * u1 - y * u2) / z
+    v3 = (n + n_u1 * u1 + n_u2 * u2 + n_v2 * v2 - x * v1 - y * v2) / z
+    # (S2), its other entries
     return (
         (x, y, u1, v1, u2, v2, z, u3, v3),
         1.0 - u1 * u1 - u2 * u2 - u3 * u3,
@@ -114,92 +169,95 @@ def point(
     )
 
 
-def inverse(free: Free, at: Nine[Number]) -> Rows[Number]:
-    """Return the change of t per entry 22, 23, 33 of E while its first row stays zero, rows.
+def newton_matrix(per_t: PerT, at: Nine[Number]) -> Matrix[Number]:
+    """Return the change of aᵀE a / 2, aᵀE b and bᵀE b / 2 per t, row by row: (S5).
 
-    The inverse of the change of (aa/2, ab, bb/2) of E per t, where a = (−u₃/z, 1, 0) and
-    b = (−v₃/z, 0, 1) are orthogonal to h, so that a change of h does not count. With g and f per
-    t, the three are al g − …, ga g + al f − … and ga f − …
+    They are entries 22, 23, 33 of E, halved on the diagonal, while its first row stays zero: a and
+    b are orthogonal to h, so that a change of h does not count. With D = (x, y) and ′ per t, they
+    are α g − (X a)·u′, γ g + α f − (X a)·v′ − (X b)·u′ and γ f − (X b)·v′.
+    """
+    x, y, u1, v1, u2, v2, z, u3, v3 = at
+    (
+        (x_u1, x_u2, x_v2),
+        (y_u1, y_u2, y_v2),
+        (v1_u1, v1_u2, v1_v2),
+        (s_u1, s_u2, s_v2),
+        (m_u1, m_u2, m_v2),
+        (n_u1, n_u2, n_v2),
+    ) = per_t
+    alpha, gamma = u3 / z, v3 / z
+    ax, ay, bx, by = u1 - alpha * x, u2 - alpha * y, v1 - gamma * x, v2 - gamma * y
+    # g = α s′ / 2 − m′ + (X a)·D′ and f = γ s′ / 2 − n′ + (X b)·D′
+    half = 0.5 * alpha
+    g_u1 = half * s_u1 - m_u1 + ax * x_u1 + ay * y_u1
+    g_u2 = half * s_u2 - m_u2 + ax * x_u2 + ay * y_u2
+    g_v2 = half * s_v2 - m_v2 + ax * x_v2 + ay * y_v2
+    half = 0.5 * gamma
+    f_u1 = half * s_u1 - n_u1 + bx * x_u1 + by * y_u1
+    f_u2 = half * s_u2 - n_u2 + bx * x_u2 + by * y_u2
+    f_v2 = half * s_v2 - n_v2 + bx * x_v2 + by * y_v2
+    return (
+        (alpha * g_u1 - ax, alpha * g_u2 - ay, alpha * g_v2),
+        (
+            gamma * g_u1 + alpha * f_u1 - ax * v1_u1 - bx,
+            gamma * g_u2 + alpha * f_u2 - ax * v1_u2 - by,
+            gamma * g_v2 + alpha * f_v2 - ax * v1_v2 - ay,
+        ),
+        (gamma * f_u1 - bx * v1_u1, gamma * f_u2 - bx * v1_u2, gamma * f_v2 - bx * v1_v2 - by),
+    )
+
+
+def newton_inverse(per_t: PerT, at: Nine[Number]) -> Matrix[Number]:
+    """Return M⁻¹ of (S4), the change of t per entry 22, 23, 33 of E, row by row.
+
+    By cofactors, of `newton_matrix`, whose first and last row are half of M's.
 
     Raises:
         ZeroDivisionError: The equations lock here; arrays hold inf or nan instead.
     """
-    x, y, u1, v1, u2, v2, z, u3, v3 = at
-    (x1, x2, x3), (y1, y2, y3), (w1, w2, w3), (s1, s2, s3), (m1, m2, m3), (n1, n2, n3) = free
-    al, ga = u3 / z, v3 / z
-    ua, ub, va, vb = u1 - al * x, u2 - al * y, v1 - ga * x, v2 - ga * y
-    h = 0.5 * al
-    g1 = h * s1 - m1 + ua * x1 + ub * y1
-    g2 = h * s2 - m2 + ua * x2 + ub * y2
-    g3 = h * s3 - m3 + ua * x3 + ub * y3
-    h = 0.5 * ga
-    f1 = h * s1 - n1 + va * x1 + vb * y1
-    f2 = h * s2 - n2 + va * x2 + vb * y2
-    f3 = h * s3 - n3 + va * x3 + vb * y3
-    a1, a2, a3 = al * g1 - ua, al * g2 - ub, al * g3
-    b1 = ga * g1 + al * f1 - ua * w1 - va
-    b2 = ga * g2 + al * f2 - ua * w2 - vb
-    b3 = ga * g3 + al * f3 - ua * w3 - ub
-    c1, c2, c3 = ga * f1 - va * w1, ga * f2 - va * w2, ga * f3 - va * w3 - vb
-    r1, r2, r3 = b2 * c3 - b3 * c2, a3 * c2 - a2 * c3, a2 * b3 - a3 * b2
-    k = 1.0 / (a1 * r1 + b1 * r2 + c1 * r3)
-    h = 0.5 * k
+    (
+        (aa_u1, aa_u2, aa_v2),
+        (ab_u1, ab_u2, ab_v2),
+        (bb_u1, bb_u2, bb_v2),
+    ) = newton_matrix(per_t, at)
+    u1_aa = ab_u2 * bb_v2 - ab_v2 * bb_u2
+    u1_ab = aa_v2 * bb_u2 - aa_u2 * bb_v2
+    u1_bb = aa_u2 * ab_v2 - aa_v2 * ab_u2
+    k = 1.0 / (aa_u1 * u1_aa + ab_u1 * u1_ab + bb_u1 * u1_bb)
+    half = 0.5 * k
     return (
-        (r1 * h, r2 * k, r3 * h),
-        ((b3 * c1 - b1 * c3) * h, (a1 * c3 - a3 * c1) * k, (a3 * b1 - a1 * b3) * h),
-        ((b1 * c2 - b2 * c1) * h, (a2 * c1 - a1 * c2) * k, (a1 * b2 - a2 * b1) * h),
+        (u1_aa * half, u1_ab * k, u1_bb * half),
+        (
+            (ab_v2 * bb_u1 - ab_u1 * bb_v2) * half,
+            (aa_u1 * bb_v2 - aa_v2 * bb_u1) * k,
+            (aa_v2 * ab_u1 - aa_u1 * ab_v2) * half,
+        ),
+        (
+            (ab_u1 * bb_u2 - ab_u2 * bb_u1) * half,
+            (aa_u2 * bb_u1 - aa_u1 * bb_u2) * k,
+            (aa_u1 * ab_u2 - aa_u2 * ab_u1) * half,
+        ),
     )
 
 
-def beta(known: Coefficients, at: Nine[Number], rows: Rows[Number]) -> Number:
-    """Return a bound on ‖(Δ of the unknowns)‖ per ‖Δ of E‖ (Frobenius): docs/equations.md.
+def kantorovich_beta(known: Coefficients, at: Nine[Number], M_inverse: Matrix[Number]) -> Number:
+    """Return β of (S7), a bound on ‖(Δ of the unknowns)‖ per ‖Δ of E‖ (Frobenius).
 
     Args:
         known: The platform.
         at: Where the equations were linearised.
-        rows: Their inverse there.
+        M_inverse: `newton_inverse` there.
     """
     x, y, u1, v1, u2, v2, z, u3, v3 = at
-    (a1, a2, a3), (b1, b2, b3), (c1, c2, c3) = rows
-    total = a1 * a1 + a3 * a3 + b1 * b1 + b3 * b3 + c1 * c1 + c3 * c3
-    total = total + 0.5 * (a2 * a2 + b2 * b2 + c2 * c2)
+    (u1_22, u1_23, u1_33), (u2_22, u2_23, u2_33), (v2_22, v2_23, v2_33) = M_inverse
+    # ‖M⁻¹ diag(1, 1/√2, 1)‖², and τ
+    squared = u1_22 * u1_22 + u1_33 * u1_33 + u2_22 * u2_22 + u2_33 * u2_33
+    squared = squared + v2_22 * v2_22 + v2_33 * v2_33
+    squared = squared + 0.5 * (u1_23 * u1_23 + u2_23 * u2_23 + v2_23 * v2_23)
     heights = z * z + u3 * u3 + v3 * v3
-    free = heights / (z * z) * total**0.5
-    turn = known.flat_norm * free
+    tau = heights / (z * z) * squared**0.5
+    # The flat unknowns' part, and that of the heights
+    turn = known.flat_norm * tau
     flat = (x * x + y * y + u1 * u1 + v1 * v1 + u2 * u2 + v2 * v2) ** 0.5
-    rise = 1.0 + known.s_norm * free + 2.0 * flat * turn
+    rise = 1.0 + known.s_norm * tau + 2.0 * flat * turn
     return (turn * turn + 0.5 * rise * rise / heights) ** 0.5
-
-
-def right_side(known: Coefficients, lengths: Sequence[float]) -> Six[float]:
-    """Return what six lengths, m, say: x, y, v₁, s, m, n where t is zero."""
-    l1, l2, l3, l4, l5, l6 = lengths
-    l1, l2, l3, l4, l5, l6 = l1 * l1, l2 * l2, l3 * l3, l4 * l4, l5 * l5, l6 * l6
-    o1, o2, o3, o4, o5, o6 = known.offset
-    (
-        (a1, a2, a3, a4, a5, a6),
-        (b1, b2, b3, b4, b5, b6),
-        (c1, c2, c3, c4, c5, c6),
-        (d1, d2, d3, d4, d5, d6),
-        (e1, e2, e3, e4, e5, e6),
-        (f1, f2, f3, f4, f5, f6),
-    ) = known.squares
-    return (
-        a1 * l1 + a2 * l2 + a3 * l3 + a4 * l4 + a5 * l5 + a6 * l6 + o1,
-        b1 * l1 + b2 * l2 + b3 * l3 + b4 * l4 + b5 * l5 + b6 * l6 + o2,
-        c1 * l1 + c2 * l2 + c3 * l3 + c4 * l4 + c5 * l5 + c6 * l6 + o3,
-        d1 * l1 + d2 * l2 + d3 * l3 + d4 * l4 + d5 * l5 + d6 * l6 + o4,
-        e1 * l1 + e2 * l2 + e3 * l3 + e4 * l4 + e5 * l5 + e6 * l6 + o5,
-        f1 * l1 + f2 * l2 + f3 * l3 + f4 * l4 + f5 * l5 + f6 * l6 + o6,
-    )  # fmt: skip
-
-
-def own_side(known: Coefficients, at: Nine[float]) -> Six[float]:
-    """Return what the lengths at an assembled pose say."""
-    x, y, u1, v1, u2, v2, z, u3, v3 = at
-    s, m, n = x * x + y * y + z * z, x * u1 + y * u2 + z * u3, x * v1 + y * v2 + z * v3
-    a, b, c, d, e, f = (
-        number - k1 * u1 - k2 * u2 - k3 * v2
-        for number, (k1, k2, k3) in zip((x, y, v1, s, m, n), known.free, strict=True)
-    )
-    return (a, b, c, d, e, f)

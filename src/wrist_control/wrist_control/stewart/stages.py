@@ -6,21 +6,24 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from wrist_control.rotations import Pose, quaternion_of, unit
-from wrist_control.stewart.certificate import Proof, new
-from wrist_control.stewart.quadratics import Nine, Rows, Six
+from wrist_control.stewart.certificate import Proof, make_tuple
+from wrist_control.stewart.quadratics import Matrix, Nine, Number, Six, Three
 
+MOST_CORRECTIONS = 12
+SMALLEST_TRACE = 0.5
 MOST_STAGES = 400
 # A stage shorter than this share of the rest of the way has met a lock.
 SHORTEST_STAGE = 1e-4
 
 Unknowns = Nine[float]
+Four = tuple[Number, Number, Number, Number]
 
 
 class Tangent(NamedTuple):
-    """Where the equations of a planar platform were linearised, and `quadratics.inverse` there."""
+    """Where the equations of a planar platform were linearised, and Newton's inverse there."""
 
     origin: Unknowns
-    rows: Rows[float]
+    M_inverse: Matrix[float]
 
 
 class Track(NamedTuple):
@@ -50,8 +53,8 @@ def follow(
 ) -> tuple[Track | None, Unknowns]:
     """Follow the root at a pose to where the squares of the lengths go straight to a goal.
 
-    A step is proved from its end: where `certificate.BRANCH` holds between two poses, every set
-    of lengths on the straight way back has exactly one root near the end, and the start is the
+    A step is proved from its end: where (S11) of docs/equations.md holds between two poses, every
+    set of lengths on the straight way back has exactly one root near the end, and the start is the
     last of them. A longer way is made in stages.
 
     Args:
@@ -91,8 +94,8 @@ def between(start: Six[float], goal: Six[float], share: float) -> Six[float]:
     return (a, b, c, d, e, f)
 
 
-def unknowns(pose: Pose, size: float) -> Unknowns:
-    """Return the unknowns at a pose; of a `Pose` of arrays, shapes (4, n) and (3, n), as arrays.
+def unknowns(pose: tuple[Four[Number], Three[Number]], size: float) -> Nine[Number]:
+    """Return the unknowns at a pose, or as arrays at a quaternion and a position of arrays.
 
     The first two rows of `rotations.direction_cosines`, without the third.
     """
@@ -110,8 +113,8 @@ def pose_of(at: Unknowns, size: float) -> Pose:
     x, y, u1, v1, u2, v2, z, u3, v3 = at
     w1, w2, w3 = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
     trace = 1.0 + u1 + v2 + w3
-    if trace > 0.5:
+    if trace > SMALLEST_TRACE:
         quaternion = unit((trace, u2 - v1, w1 - u3, v3 - w2))
     else:
         quaternion = quaternion_of(((u1, u2, u3), (v1, v2, v3), (w1, w2, w3)))
-    return new(Pose, (quaternion, (x * size, y * size, z * size)))
+    return make_tuple(Pose, (quaternion, (x * size, y * size, z * size)))

@@ -4,27 +4,31 @@ from __future__ import annotations
 
 import math
 
-from wrist_control.stewart.certificate import BRANCH, NOTHING, kantorovich, moved, new
+from wrist_control.stewart.certificate import (
+    BRANCH_LIMIT,
+    NOTHING_PROVED,
+    ROUNDING,
+    beta_nearby,
+    kantorovich,
+    make_tuple,
+)
 from wrist_control.stewart.quadratics import (
     Coefficients,
-    Rows,
+    Matrix,
     Six,
-    beta,
-    inverse,
-    point,
+    kantorovich_beta,
+    newton_inverse,
+    unknowns_and_residual,
 )
-from wrist_control.stewart.stages import Tangent, Track, Unknowns
+from wrist_control.stewart.stages import MOST_CORRECTIONS, Tangent, Track, Unknowns
 
-# Where the platform is lower than this share of its size, or steeper, z cannot lead.
+# Where the platform is lower than this share of its size, z cannot lead.
 LOW = 0.15
-# Rounding of one evaluation of E, as a share of its largest term: generous.
-ROUNDING = 32.0 * 2.0**-52
 # From so little left of E, one or two steps with a new inverse end at rounding.
 SHARP = 1e-6
-MOST_CORRECTIONS = 12
 
 
-def solve(
+def solve_planar(
     known: Coefficients, right: Six[float], start: Unknowns, tangent: Tangent | None = None
 ) -> Track | None:
     """Correct until rounding is all that is left, and prove where that is.
@@ -39,29 +43,29 @@ def solve(
         tangent: A linearisation near the start, where there is one: it saves an inverse, and no
             proof rests on it unless the start is the answer already.
     """
-    if not leads(start):
+    if not is_high_enough(start):
         return None
     _, _, u1, _, u2, v2, z, _, _ = start
     side = 1.0 if z > 0.0 else -1.0
-    free, sqrt = known.free, math.sqrt
+    per_t, sqrt = known.per_t, math.sqrt
     floor = ROUNDING * (1.0 + abs(right[3]))
-    origin, rows = tangent or (start, None)
+    origin, M_inverse = tangent or (start, None)
     last = math.inf
     try:
         for count in range(MOST_CORRECTIONS):
-            at, e22, e23, e33 = point(right, free, u1, u2, v2, side)
+            at, e22, e23, e33 = unknowns_and_residual(right, per_t, u1, u2, v2, side)
             left = sqrt(e22 * e22 + 2.0 * e23 * e23 + e33 * e33)
             if left <= 0.125 * floor or floor > left > 0.5 * last:
-                if rows is None:
-                    origin, rows = at, inverse(free, at)
-                return _proved(known, at, start, count, origin, rows, left + floor)
+                if M_inverse is None:
+                    origin, M_inverse = at, newton_inverse(per_t, at)
+                return _proved(known, at, start, count, origin, M_inverse, left + floor)
             # The inverse of the last step would leave about left² / last now.
-            if rows is None or left <= SHARP < last or left * left > SHARP * last:
-                origin, rows = at, inverse(free, at)
-            (a1, a2, a3), (b1, b2, b3), (c1, c2, c3) = rows
-            u1 -= a1 * e22 + a2 * e23 + a3 * e33
-            u2 -= b1 * e22 + b2 * e23 + b3 * e33
-            v2 -= c1 * e22 + c2 * e23 + c3 * e33
+            if M_inverse is None or left <= SHARP < last or left * left > SHARP * last:
+                origin, M_inverse = at, newton_inverse(per_t, at)
+            (u1_22, u1_23, u1_33), (u2_22, u2_23, u2_33), (v2_22, v2_23, v2_33) = M_inverse
+            u1 -= u1_22 * e22 + u1_23 * e23 + u1_33 * e33
+            u2 -= u2_22 * e22 + u2_23 * e23 + u2_33 * e33
+            v2 -= v2_22 * e22 + v2_23 * e23 + v2_33 * e33
             last = left
     except (ArithmeticError, TypeError):  # a lock, or no room for the height: it is complex
         pass
@@ -74,17 +78,17 @@ def _proved(
     start: Unknowns,
     count: int,
     origin: Unknowns,
-    rows: Rows[float],
+    M_inverse: Matrix[float],
     left: float,
 ) -> Track:
-    bound = moved(beta(known, origin, rows), math.dist(origin, at))
-    proof = kantorovich(bound, bound * left) if bound < math.inf else NOTHING
-    followed = bound * (math.dist(start, at) + proof.error) <= BRANCH
-    return new(Track, (at, count, proof, followed, new(Tangent, (origin, rows))))
+    bound = beta_nearby(kantorovich_beta(known, origin, M_inverse), math.dist(origin, at))
+    proof = kantorovich(bound, bound * left) if bound < math.inf else NOTHING_PROVED
+    followed = bound * (math.dist(start, at) + proof.error) <= BRANCH_LIMIT
+    return make_tuple(
+        Track, (at, count, proof, followed, make_tuple(Tangent, (origin, M_inverse)))
+    )
 
 
-def leads(at: Unknowns) -> bool:
+def is_high_enough(at: Unknowns) -> bool:
     """Return whether the height z is large enough to divide by."""
-    _, _, _, _, _, _, z, u3, v3 = at
-    z = abs(z)
-    return z > LOW and z > LOW * abs(u3) and z > LOW * abs(v3)
+    return abs(at[6]) > LOW

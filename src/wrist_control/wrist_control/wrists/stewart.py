@@ -14,6 +14,7 @@ from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.rotations import IDENTITY, Pose, Vector, to_forearm, turned
 from wrist_control.stewart.forward_kinematics import ForwardKinematics, Status
 from wrist_control.stewart.geometry import (
+    SHORTEST,
     Anchors,
     Line,
     checked_anchors,
@@ -34,8 +35,6 @@ EDGE = 0.01
 HORIZON = 0.5
 # Lengths this much further on than a pose belong to it only if they fit no other, m.
 FAR = 0.02
-# A leg shorter than this share of the platform's size has no direction to speak of.
-SHORTEST = 1e-6
 
 Points = Sequence[Sequence[float]] | Sequence[float]
 
