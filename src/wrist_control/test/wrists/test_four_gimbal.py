@@ -59,7 +59,7 @@ def test_inverse_keeps_alpha_and_finds_the_same_hand(positions, change):
 def test_rates_spend_the_fourth_gimbal_on_barkers_law(positions, twist):
     _, theta, phi, _ = positions
     alpha_rate = WRIST.rates(positions, twist)[3]
-    law = -WRIST.gain * math.sin(theta) * (1.0 if math.sin(phi) > -1e-9 else -1.0)
+    law = -WRIST.gain * math.sin(theta) * (1.0 if math.sin(phi) >= -1e-9 else -1.0)
     assert alpha_rate == pytest.approx(law if any(twist) else 0.0)
 
 
