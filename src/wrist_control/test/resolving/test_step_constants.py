@@ -54,3 +54,14 @@ def test_a_thousandth_of_a_radian_per_second_that_is_left_out_is_told(missing, t
     command = (0.2, 0.0, side * missing)  # at home the pointer cannot roll
     made = step(wrist, start(wrist), command, 0.01)
     assert ('is missing' in sentence(wrist, made, command)) is told
+
+
+def test_held_at_a_limit_in_lock_it_is_still_said_to_be_in_lock():
+    theta = 0.5 * math.pi - 1e-5
+    wrist = WRIST.with_limits(upper=(9.0, theta, 9.0))
+    positions = (0.0, theta, 0.0)
+    state = start(WRIST)._replace(positions=positions, pose=WRIST.forward(positions))
+    made = step(wrist, state, (0.0, 0.2, 0.0), 0.01)
+    assert (made.singular, made.scale_factor, made.state.positions) == (True, 0.0, positions)
+    assert [(limit.joint, limit.kind) for limit in made.limits] == [('theta', LimitKind.POSITION)]
+    assert made.state.time_lost == pytest.approx(0.01)
