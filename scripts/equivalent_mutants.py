@@ -23,4 +23,26 @@ class Equivalent(NamedTuple):
     why: str
 
 
-EQUIVALENT: tuple[Equivalent, ...] = ()
+MANEUVERS = 'operating/maneuvers.py'
+EQUIVALENT = (
+    *(
+        Equivalent(
+            MANEUVERS,
+            'x, y, z = (chance.gauss(0.0, 1.0) for _ in range(3))',
+            '1.0',
+            after,
+            'a direction has no length',
+        )
+        for after in ('(10.0)', '(0.1)', '(2.0)')
+    ),
+    *(
+        Equivalent(
+            MANEUVERS,
+            'self._share = 1.0',
+            '1.0',
+            after,
+            'at the first order no time has been lost, and so the share is not looked at',
+        )
+        for after in ('(10.0)', '(0.1)', '(2.0)', '(0.0)', '(-1.0)')
+    ),
+)

@@ -77,6 +77,7 @@ SYMMETRIC_CALLS = {'min', 'max', 'hypot', 'dist'}
 UNOBSERVED = ('get_logger', 'gc.')
 UNTOUCHED_FIELDS = {'annotation', 'returns', 'decorator_list', 'bases', 'type_params'}
 UNTOUCHED_KEYWORDS = {'strict', 'throttle_duration_sec', 'kw_only', 'bound'}
+UNORDERED = (ast.Subscript, ast.Compare, ast.ExceptHandler)
 UNTOUCHED_NODES = (ast.JoinedStr, ast.Assert, ast.Import, ast.ImportFrom)
 
 
@@ -105,7 +106,7 @@ def _nodes(node: Any, function: Any = None) -> Iterator[tuple[Any, Any]]:
         if field in UNTOUCHED_FIELDS:
             continue
         for part in value if isinstance(value, list) else [value]:
-            if isinstance(part, ast.Tuple) and isinstance(node, ast.Subscript | ast.Compare):
+            if isinstance(part, ast.Tuple) and isinstance(node, UNORDERED):
                 # An index does not survive a change of order, and a set of choices has none.
                 for item in part.elts:
                     yield from _nodes(item, inside)
@@ -184,10 +185,14 @@ def _calls(node: ast.Call) -> Iterator[tuple[Any, list[str]]]:
 
 
 def _swaps(node: Any, field: str) -> list[str]:
-    """Return a node with each two neighbours of a list swapped, where that changes anything."""
+    """Return a node with each two neighbours of a list swapped, where both are of one kind.
+
+    Of different kinds they are taken for each other at once, by whatever is done with them.
+    """
     found, items = [], getattr(node, field)
     for i in range(len(items) - 1):
-        if ast.dump(items[i]) != ast.dump(items[i + 1]):
+        alike = type(items[i]) is type(items[i + 1])
+        if alike and ast.dump(items[i]) != ast.dump(items[i + 1]):
             swapped = [*items[:i], items[i + 1], items[i], *items[i + 2 :]]
             found.append(_with(node, **{field: swapped}))
     return found

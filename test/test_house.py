@@ -22,6 +22,7 @@ PARTS = {
         'general',
         'geometry',
         'quadratics',
+        'solution',
         'stages',
         'tracking',
     },

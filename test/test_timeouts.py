@@ -92,8 +92,7 @@ def test_the_age_at_which_a_stamp_is_refused_changes_with_the_timeout(graph):
         return statuses[-1].state == WristStatus.TRACKING
 
     graph.until(lambda: statuses)
-    seen = [old_command_moves() for _ in range(10)]
-    assert not any(seen)
+    assert not any(old_command_moves() for _ in range(10))
     change(graph, command_timeout=5.0)
     graph.until(old_command_moves)
 

@@ -8,7 +8,7 @@ import pytest
 
 from wrist_control import WRISTS, make_wrist
 from wrist_control.testing import LAWS, LawBrokenError, check_wrist
-from wrist_control.wrists import Wrist, wrist_class
+from wrist_control.wrists import wrist_class
 
 
 @pytest.mark.parametrize('law', LAWS)
@@ -122,19 +122,3 @@ def seeded(fault, name):
 def test_every_fault_breaks_a_law(fault, name):
     with pytest.raises(LawBrokenError, match=f'{fault.__name__} breaks '):
         check_wrist(seeded(fault, name))
-
-
-def test_a_wrist_that_forgets_an_answer_is_refused_when_it_is_made():
-    class Forgetful(Wrist):
-        forward = inverse = rates = jacobian = lambda self, *_: None
-
-    with pytest.raises(TypeError, match='margin'):
-        Forgetful()
-
-
-def test_a_wrist_without_joints_is_refused_when_it_is_made():
-    class Jointless(Wrist):
-        forward = inverse = rates = jacobian = margin = lambda self, *_: None
-
-    with pytest.raises(TypeError, match='Jointless names no joints: give it default_joints'):
-        Jointless()

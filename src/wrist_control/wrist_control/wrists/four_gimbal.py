@@ -114,7 +114,7 @@ class FourGimbal(Wrist):
             speed = move * law
             bound = joint.upper if speed * cosine > 0.0 else joint.lower
             if math.isfinite(bound):
-                space = (bound - position) * math.copysign(cosine, speed)
+                space = (bound - position) * math.copysign(cosine, speed * cosine)
                 fastest = CUSHION * abs(speed)
                 if 0.0 < fastest > space:
                     share = min(share, max(0.0, space) / fastest)
