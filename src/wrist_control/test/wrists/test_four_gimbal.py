@@ -63,7 +63,6 @@ def test_inverse_keeps_alpha_and_finds_the_same_hand(positions, change):
 @given(gimbals.filter(clear_of_either_side), commands)
 def test_rates_spend_the_fourth_gimbal_on_barkers_law(positions, twist):
     _, theta, phi, _ = positions
-<<<<<<< HEAD
     law = -0.8 * math.sin(theta) * math.copysign(1.0, math.sin(phi))
     assert WRIST.rates(positions, twist)[3] == pytest.approx(law if any(twist) else 0.0)
 
@@ -72,11 +71,6 @@ def test_rates_spend_the_fourth_gimbal_on_barkers_law(positions, twist):
 def test_on_the_way_from_one_side_to_the_other_the_law_is_never_anything_between(theta, phi, base):
     rate = WRIST.rates((0.3, theta, base + phi, 0.5), (0.1, 0.2, 0.3))[3]
     assert abs(rate) == pytest.approx(0.8 * abs(math.sin(theta)))
-=======
-    alpha_rate = WRIST.rates(positions, twist)[3]
-    law = -WRIST.gain * math.sin(theta) * (1.0 if math.sin(phi) >= -1e-9 else -1.0)
-    assert alpha_rate == pytest.approx(law if any(twist) else 0.0)
->>>>>>> wt-mutants
 
 
 @given(
