@@ -202,11 +202,15 @@ def main() -> int:
     parser.add_argument('--count', type=int, default=40, help='random faults for each folder')
     parser.add_argument('--seed', type=int, default=1, help='another seed makes other faults')
     parser.add_argument('--folder', choices=FOLDERS, help='this folder alone')
-    parser.add_argument('--chosen', action='store_true', help='the chosen faults alone')
+    either = parser.add_mutually_exclusive_group()
+    either.add_argument('--chosen', action='store_true', help='the chosen faults alone')
+    either.add_argument('--random', action='store_true', help='the random faults alone')
     options = parser.parse_args()
     folders = [options.folder] if options.folder else FOLDERS
     mine = options.folder or ''
-    kinds = {'chosen': [one for one in chosen() if one.file.startswith(mine)]}
+    kinds = {}
+    if not options.random:
+        kinds['chosen'] = [one for one in chosen() if one.file.startswith(mine)]
     if not options.chosen:
         kinds |= {name: sample(name, options.count, options.seed) for name in folders}
     console = Console()

@@ -65,3 +65,12 @@ def test_held_at_a_limit_in_lock_it_is_still_said_to_be_in_lock():
     assert (made.singular, made.scale_factor, made.state.positions) == (True, 0.0, positions)
     assert [(limit.joint, limit.kind) for limit in made.limits] == [('theta', LimitKind.POSITION)]
     assert made.state.time_lost == pytest.approx(0.01)
+
+
+@pytest.mark.parametrize('side', [-1.0, 1.0])
+def test_at_its_limit_nothing_moves_and_all_of_the_time_is_lost(side):
+    wrist = WRIST.with_limits(lower=-0.3, upper=0.3)
+    state = start(wrist, (0.0, 0.0, side * 0.3))
+    made = step(wrist, state, (side * 0.5, 0.0, 0.0), 0.02)
+    assert (made.scale_factor, made.joint_rates) == (0.0, (0.0, 0.0, 0.0))
+    assert made.state == state._replace(time_lost=0.02)
