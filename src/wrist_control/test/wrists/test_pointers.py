@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from wrist_control import UnreachableError
 from wrist_control.rotations import Pose, about_z, product, rates_between
+from wrist_control.wrists.carpal import Carpal
 from wrist_control.wrists.five_bar import FiveBar
 from wrist_control.wrists.pitch_yaw import PitchYaw
 
@@ -25,6 +26,23 @@ def test_a_roll_of_its_own_is_out_of_reach(wrist):
     pose = wrist.forward((0.3, 0.4))
     with pytest.raises(UnreachableError, match='point'):
         wrist.inverse(Pose(product(pose.quaternion, about_z(0.01))), (0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    'wrist', [PitchYaw(), FiveBar(), Carpal()], ids=['pitch_yaw', 'five_bar', 'carpal']
+)
+def test_a_roll_of_a_millionth_is_round_off_and_one_of_five_is_none(wrist):
+    """Half of that for the Carpal wrist, whose quaternion has half the angle."""
+    positions = tuple(x + 0.1 for x in wrist.home)
+    pose = wrist.forward(positions)
+
+    def rolled(angle):
+        return Pose(product(pose.quaternion, about_z(angle)), pose.position)
+
+    found = wrist.inverse(rolled(5e-7), positions)
+    np.testing.assert_allclose(found, positions, atol=1e-5)
+    with pytest.raises(UnreachableError):
+        wrist.inverse(rolled(5e-6), positions)
 
 
 @both

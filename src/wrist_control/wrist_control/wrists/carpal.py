@@ -22,7 +22,8 @@ from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist, soft_
 
 # Azimuths of the three legs as (cos, sin), [Canfield1997], fig. 4.1.
 AZIMUTHS = ((1.0, 0.0), (-0.5, math.sqrt(0.75)), (-0.5, -math.sqrt(0.75)))
-# Poses this far from the mechanism's own, relative to its size, still count as its own.
+# Poses this far from the mechanism's own, relative to its size, still count as its own: far beyond
+# round-off, and far below what a person would call a torsion.
 TOLERANCE = 1e-6
 # What can end the workspace, in the order of `_distances`.
 EDGES = (

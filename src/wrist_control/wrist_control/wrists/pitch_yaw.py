@@ -25,7 +25,8 @@ from wrist_control.rotations import (
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Positions, Rates, Wrist
 
-# Orientations this far from the mechanism's own, rad, still count as its own.
+# Orientations this far from the mechanism's own, rad, still count as its own: far beyond
+# round-off, and far below what a person would call a roll.
 TOLERANCE = 1e-6
 
 
