@@ -34,6 +34,14 @@ def test_a_batch_gives_what_single_solves_give(wrist):
         assert batch.unique_radius[row] == pytest.approx(single.unique_radius, rel=0.05)
 
 
+def test_a_pose_that_was_filled_with_arrays_counts_as_poses():
+    _, lengths, near = many(5)
+    for one, other in zip(
+        FK.solve_batch(lengths, Pose(*near)), FK.solve_batch(lengths, near), strict=True
+    ):
+        np.testing.assert_array_equal(one, other)
+
+
 def test_a_batch_from_home_finds_every_pose():
     found, lengths, _ = many()
     batch = FK.solve_batch(lengths)

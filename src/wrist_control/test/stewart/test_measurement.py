@@ -92,3 +92,21 @@ def test_a_jump_is_named():
     check_jump(after, before, 0.1, 0.25)
     with pytest.raises(InvalidValueError, match=r'leg_4 jumped by 0\.02 m in 0\.01 s'):
         check_jump(after, before, 0.01, 0.25)
+
+
+def stretched(length):
+    """Return lengths of legs 1 and 2 that the triangle inequality just allows."""
+    apart = sum(math.dist(points[0], points[1]) for points in (WRIST.platform, WRIST.base))
+    return [length + apart, length, *[length + 0.5 * apart] * 4]
+
+
+@pytest.mark.parametrize('length', [0.3 + 1e-9 * (7 * k + 0.37 * k) for k in range(12)])
+def test_readings_in_whole_nanometres_are_not_refused_for_their_last_digit(length):
+    lengths = [round(x, 9) for x in stretched(length)]
+    assert impossible_pair(WRIST.platform, WRIST.base, lengths) is None
+
+
+def test_a_hundredth_of_a_micrometre_beyond_the_triangle_inequality_is_named():
+    lengths = stretched(0.4)
+    lengths[0] += 1e-8
+    assert impossible_pair(WRIST.platform, WRIST.base, lengths) == (1, 2)

@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from wrist_control import InvalidValueError
-from wrist_control.rotations import Pose, about_z, unit
+from wrist_control import InvalidValueError, make_wrist
+from wrist_control.rotations import IDENTITY, Pose, about_z, turned, unit
+from wrist_control.stewart import quadratics, stages, tracking
 from wrist_control.stewart.forward_kinematics import Status
 
-from .platforms import CROOKED, FK, HOME, WRIST, apart, lengths_of, random_poses
+from .platforms import CROOKED, FK, HOME, SCATTERED, SIZE, WRIST, apart, lengths_of, random_poses
 
 # These lengths, m, hold the platform above the base in two poses on the same side of lock.
 TWICE = Pose(unit((0.9687, -0.0673, -0.1093, 0.2126)), (0.0828, 0.0223, 0.5081))
@@ -99,3 +100,55 @@ def test_a_crooked_platform_has_cold_starts_too():
     pose = random_poses(1, 0.03, 0.2)[0]
     cold = CROOKED.forward_kinematics.cold_start(lengths_of(pose, CROOKED))
     assert apart(cold.solution.pose, pose) < 1e-11
+
+
+@pytest.mark.parametrize(
+    ('yaw', 'status'), [(1.54, Status.CONVERGED), (1.5607, Status.NEAR_SINGULAR)]
+)
+def test_a_twin_nearer_than_a_hundredth_of_the_size_is_near_singular(yaw, status):
+    """The radii that are proved here are 1.5 % and 0.5 % of the size."""
+    pose = Pose(about_z(yaw), HOME.position)
+    assert FK.solve(lengths_of(pose), pose).status == status
+
+
+def planar_platform(condition):
+    """Return a platform whose equations for (x, y, v₁, s, m, n) are that ill-conditioned."""
+    p, b = np.array(SCATTERED.platform), np.array(SCATTERED.base)
+
+    def equations(by):
+        x, y = p[:, 0] / SIZE, p[:, 1] / SIZE
+        bx = b[:, 0] / SIZE
+        base_y = np.array([*b[:5, 1], by]) / SIZE
+        return np.stack([-2 * bx, -2 * base_y, -2 * bx * y, np.ones(6), 2 * x, 2 * y], axis=1)
+
+    zero, one = np.linalg.det(equations(0.0)), np.linalg.det(equations(1.0))
+    lock, off = zero / (zero - one), -0.2
+    while np.linalg.cond(equations(lock + off)) < condition:
+        off *= 0.9
+    b[5, 1] = lock + off
+    return make_wrist('stewart', platform_anchors=p, base_anchors=b)
+
+
+@pytest.mark.parametrize('condition', [30.0, 600.0, 6000.0])
+def test_a_planar_platform_that_its_legs_hold_is_proved_however_its_equations_are(condition):
+    wrist = planar_platform(condition)
+    assert wrist.margin(wrist.home) > 0.02
+    for pose in random_poses(5, 0.02, 0.1):
+        solution = wrist.forward_kinematics.solve(lengths_of(pose, wrist), pose)
+        assert solution.status == Status.CONVERGED
+
+
+def test_well_conditioned_equations_take_the_fast_way():
+    assert planar_platform(30.0).forward_kinematics.planar is not None
+
+
+def test_a_platform_close_to_its_base_is_proved_to_be_where_it_is():
+    """At a tenth of its size z cannot lead: what it proves there is worth nothing."""
+    pose = Pose(turned(IDENTITY, (0.1, -0.1, 0.1), 1.0), (0.01, 0.01, 0.1 * SIZE))
+    assert FK.solve(lengths_of(pose), pose).status == Status.CONVERGED
+
+
+def test_at_two_thirds_of_homes_height_the_fast_way_is_taken():
+    pose = Pose(IDENTITY, (0.0, 0.0, 0.67 * HOME.position[2]))
+    goal = quadratics.right_side(FK.planar, lengths_of(pose))
+    assert tracking.solve_planar(FK.planar, goal, stages.unknowns(pose, SIZE)).followed

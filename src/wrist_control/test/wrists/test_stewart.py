@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.resolving import LimitKind, start, step
 from wrist_control.resolving.homing import has_reached, step_towards
-from wrist_control.rotations import Pose, about_z, rates_between, turned
+from wrist_control.rotations import IDENTITY, Pose, about_z, rates_between, turned
+from wrist_control.stewart.forward_kinematics import Status
 from wrist_control.units import INCH
 from wrist_control.wrists.stewart import EDGE, LegConfiguration
 
@@ -234,3 +235,38 @@ def test_twelve_anchors_are_the_same_wrist_as_the_ring():
 def test_what_cannot_be_a_platform_is_refused(wrong, says):
     with pytest.raises(InvalidValueError, match=says):
         make_wrist('stewart', **wrong)
+
+
+def yaw_of(pose):
+    return rates_between(HOME.quaternion, pose.quaternion, 1.0)[2]
+
+
+def test_yaw_comes_within_three_degrees_of_lock_and_its_pose_is_still_proved():
+    state = fly(WRIST, (0, 0, 0, 0, 0, 1.0), 1500).state
+    assert 0.5 * math.pi - math.radians(3.0) < yaw_of(state.pose) < 0.5 * math.pi
+    found = WRIST.forward_kinematics.solve(tuple(state.positions), state.pose)
+    assert found.status == Status.CONVERGED
+
+
+def test_the_hand_brakes_gently_before_lock():
+    """From 1 rad/s of yaw, in rad/s²."""
+    state, factors = start(WRIST), [1.0]
+    for _ in range(400):
+        made = step(WRIST, state, (0, 0, 0, 0, 0, 1.0), DT)
+        state = made.state
+        factors.append(made.scale_factor)
+    assert np.diff(factors).min() > -3.0 * DT
+    assert factors[-1] < 0.01
+
+
+def pose_with_first_leg(share):
+    """Return a pose whose leg 1 has a length of so much of the platform's size."""
+    x, y, z = np.subtract(WRIST.base[0], WRIST.platform[0]).tolist()
+    return Pose(IDENTITY, (x, y, z + share * WRIST.size))
+
+
+def test_a_leg_of_a_millionth_of_the_size_is_the_shortest_that_has_a_direction():
+    shortest = WRIST.assembly_at(pose_with_first_leg(2e-6))
+    assert shortest.lines[0][:3] == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)
+    with pytest.raises(UnreachableError, match='leg_1 would have no length'):
+        WRIST.assembly_at(pose_with_first_leg(5e-7))

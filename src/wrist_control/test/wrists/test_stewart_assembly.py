@@ -61,10 +61,11 @@ def test_lengths_that_are_far_from_home_and_fit_other_poses_are_refused():
             WRIST.resolve_assembly(tuple(state.positions), WRIST.home.pose)
 
 
-def test_lengths_close_to_a_pose_belong_to_it_wherever_it_is():
+@pytest.mark.parametrize('travel', [1e-3, 0.015])
+def test_lengths_close_to_a_pose_belong_to_it_wherever_it_is(travel):
     for state in MISLED:
         x, y, z = state.pose.position
-        moved = WRIST.assembly_at(Pose(state.pose.quaternion, (x + 1e-3, y, z)))
+        moved = WRIST.assembly_at(Pose(state.pose.quaternion, (x + travel, y, z)))
         found = WRIST.resolve_assembly(tuple(moved), state.pose)
         assert found.pose.position == pytest.approx(moved.pose.position, abs=1e-9)
 

@@ -22,7 +22,8 @@ from wrist_control.stewart.measurement import (
 )
 from wrist_control.wrists.stewart import Stewart
 
-# A search that was in vain is not made again sooner, s: it takes longer than a reading may.
+# A search that was in vain is not made again sooner, s. It takes 30 to 150 ms, longer than a
+# reading may: so seldom, readings at 100 Hz keep up, and who moves a leg waits no longer.
 SEARCH_PERIOD = 1.0
 MEANINGS = {
     Status.CONVERGED: 'The pose is proved to be the one that the pose before leads to.',

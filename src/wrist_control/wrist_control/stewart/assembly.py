@@ -10,10 +10,14 @@ import numpy as np
 from wrist_control.rotations import Pose, Poses, about_z, product, turned
 from wrist_control.stewart.stages import Track
 
+# Seeds this close find what 80 yaws or directions find, but for one pose in twenty, in a tenth of
+# the time: the search takes 25 ms. More are harmless but slow. Tilts, rad, go beyond a quarter
+# turn, where legs have crossed.
 TILTS = (0.0, 0.5, 1.0, 1.5, 2.2)
 TILT_DIRECTIONS = 8
 YAWS = 8
-# Seeds sink and rise by these shares of the home height.
+# Shares of the home height. A planar platform takes its height from the lengths, on the seed's
+# side of the base; for any other, one height alone misses a pose in six.
 HEIGHTS = (0.4, 0.8, 1.2)
 
 

@@ -22,7 +22,7 @@ from wrist_control.stewart.quadratics import (
 from wrist_control.stewart.stages import MOST_CORRECTIONS, SMALLEST_TRACE, Track, unknowns
 from wrist_control.stewart.tracking import LOW, SHARP
 
-# So many at a time stay in the processor's cache.
+# So many rows at a time stay in the processor's cache; nothing but speed hangs on it.
 CHUNK = 8192
 
 Array = np.ndarray

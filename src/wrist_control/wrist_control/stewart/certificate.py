@@ -26,7 +26,9 @@ class Proof(NamedTuple):
     unique: float
 
 
-# ROUNDING
+# Rounding of one evaluation of E or of six squared lengths, as a share of the largest term. Exact
+# fractions show up to 3.6 units in the last place (E, at any height); this is nine times that, and
+# the bounds are loose in proportion. (S9)
 ROUNDING = 32.0 * 2.0**-52
 # A root X₁ is the continuation of a root X₀, while the right sides go straight from one to the
 # other, when β₁ ‖X₁ − X₀‖ is at most this: β η ≤ β‖Δ‖ + (β‖Δ‖)² is then at most 1/4.

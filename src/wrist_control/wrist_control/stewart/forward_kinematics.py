@@ -16,11 +16,21 @@ from wrist_control.stewart.measurement import check_lengths, impossible_pair
 from wrist_control.stewart.solution import ColdStart, Solution, Solutions, Status
 from wrist_control.stewart.stages import Track
 
-# Nearer than this share of the platform's size to a second root, the two are hard to tell apart.
+# A second pose may be as near as this share of the platform's size: with the paper's, 2.7 mm or
+# 0.6°. That is what a leg moves between readings (0.5 m/s at 200 Hz), and what play can amount to.
 NEAR_LOCK = 0.01
-# What rounding adds to an answer after its proof, as a share of its largest number.
+# The pose made of a trial point is no further from the root than this times the point: 2 / √trace
+# of `stages.SMALLEST_TRACE`, √8, and 6 % for what is of second order. Proved as (S10).
+POSE_ERROR = 3.0
+# What rounding adds to that, as a share of the numbers: 2.3 units in the last place, measured, of
+# the quaternion, and one of each product with the size; seven times that.
 LAST_ROUNDING = 16.0 * 2.0**-52
+# Answers closer than this share of the size are one pose found twice. On one side of lock two
+# poses do not come near each other, so anything between rounding and NEAR_LOCK does the same.
 SAME_POSE = 1e-6
+# Where the fast way stopped higher than this, it has met a lock, where six legs at a time would
+# stop as well. Higher costs time alone; lower than LOW the slow way would never be tried.
+CLEARLY_HIGH = 2.0 * tracking.LOW
 
 
 # Looking up a member of an enumeration costs as much as a call.
@@ -102,7 +112,7 @@ class ForwardKinematics:
                 quadratics.right_side(self.planar, lengths),
                 start,
             )
-            if (track is not None and track.followed) or abs(start[6]) > 2.0 * tracking.LOW:
+            if (track is not None and track.followed) or abs(start[6]) > CLEARLY_HIGH:
                 return track
         other, _ = stages.follow(
             partial(general.solve_general, self._any),
@@ -116,8 +126,7 @@ class ForwardKinematics:
         size = self.size
         at, iterations, (error, unique), followed, _ = track
         x, y, _, _, _, _, z, _, _ = at
-        # The root is within `error` of the unknowns; making a pose of them moves them no further.
-        bound = size * (3.0 * error + LAST_ROUNDING * (1.0 + abs(x) + abs(y) + abs(z)))
+        bound = size * (POSE_ERROR * error + LAST_ROUNDING * (1.0 + abs(x) + abs(y) + abs(z)))
         status = CONVERGED if followed else UNPROVEN
         if unique < NEAR_LOCK:
             status = NEAR_SINGULAR
@@ -152,7 +161,7 @@ class ForwardKinematics:
         found.quaternion[part], found.position[part] = batch.poses_of(at, size)
         found.iterations[part] = tracks.iterations
         reach = 1.0 + np.abs(at[0]) + np.abs(at[1]) + np.abs(at[6])
-        found.error_bound[part] = size * (3.0 * tracks.error + LAST_ROUNDING * reach)
+        found.error_bound[part] = size * (POSE_ERROR * tracks.error + LAST_ROUNDING * reach)
         found.unique_radius[part] = size * tracks.unique
         status = np.where(tracks.unique < NEAR_LOCK, Status.NEAR_SINGULAR, Status.CONVERGED)
         # What the fast way does not prove is solved again one by one.

@@ -19,6 +19,10 @@ from wrist_control.stewart.geometry import SHORTEST, Anchors, legs, length, line
 from wrist_control.stewart.quadratics import Six
 from wrist_control.stewart.stages import MOST_CORRECTIONS, Track, Unknowns, pose_of, unknowns
 
+# A step by the platform's own size, or by 1 rad, is far beyond where a proof can hold: stages are
+# the way there. Larger ones are harmless, and smaller ones cost stages.
+LARGEST_STEP = 1.0
+
 
 class Platforms(NamedTuple):
     """Anchors as shares of the characteristic length, m."""
@@ -70,7 +74,7 @@ def solve_general(known: Platforms, goal: Six[float], start: Unknowns) -> Track 
             twist = np.linalg.solve(lines, np.subtract(wanted, lengths))
         except np.linalg.LinAlgError:
             return None
-        if not np.abs(twist).max() < 1.0:
+        if not np.abs(twist).max() < LARGEST_STEP:
             return None
         pose = _moved(pose, *(float(x) for x in twist))
         last = left

@@ -17,7 +17,8 @@ from wrist_control.rotations import Pose, Vector, direction_cosines
 Anchors = tuple[Vector, Vector, Vector, Vector, Vector, Vector]
 # A leg's part in holding the platform: its unit direction and moment, in platform axes.
 Line = tuple[float, float, float, float, float, float]
-# A leg shorter than this share of the platform's size has no direction to speak of.
+# Rounding of coordinates turns a leg of this share of the platform's size by some 1e-9 rad: ten
+# times shorter, and rates would no longer be right to nine digits. No real leg comes near.
 SHORTEST = 1e-6
 
 

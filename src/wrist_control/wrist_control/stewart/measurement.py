@@ -12,7 +12,8 @@ from wrist_control.errors import InvalidValueError
 from wrist_control.rotations import Pose
 from wrist_control.stewart.geometry import Anchors, Line
 
-# Lengths may miss the triangle inequality by this share: rounding of the readings.
+# Lengths may miss the triangle inequality by this share: readings in whole nanometres of a metre
+# are not refused for their last digit, and what is further off is named and not searched for.
 SLACK = 1e-9
 
 

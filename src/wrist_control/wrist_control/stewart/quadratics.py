@@ -33,8 +33,10 @@ import numpy as np
 
 from wrist_control.stewart.geometry import Anchors
 
-# Solving for (x, y, v₁, s, m, n) may magnify rounding by no more than this.
-LARGEST_CONDITION = 1e4
+# c₁ and c₂ of (S7) grow with the condition of the six equations, and the radius that is proved
+# unique shrinks with them. Up to here it stays above NEAR_LOCK in nine poses of ten around home;
+# from 300 on a platform that its legs hold well would be called NEAR_SINGULAR for that alone.
+LARGEST_CONDITION = 100.0
 
 Number = TypeVar('Number', float, np.ndarray)
 Three = tuple[Number, Number, Number]

@@ -9,10 +9,17 @@ from wrist_control.rotations import Pose, quaternion_of, unit
 from wrist_control.stewart.certificate import Proof, make_tuple
 from wrist_control.stewart.quadratics import Matrix, Nine, Number, Six, Three
 
+# Where a proof can hold, Newton's steps end after seven at most; a search from afar takes up to 12
+# for every pose that it finds. More are harmless, and cost a search their time.
 MOST_CORRECTIONS = 12
+# The quaternion's first row loses digits as 2 / √trace, which is √8 here: POSE_ERROR rests on it.
+# Above 1 would be as good and slower, as the other way to a quaternion takes twice the time.
 SMALLEST_TRACE = 0.5
+# Ways across the workspace take up to 390. More are harmless: SHORTEST_STAGE ends what cannot be.
 MOST_STAGES = 400
-# A stage shorter than this share of the rest of the way has met a lock.
+# Close to lock the pose goes like the root of what is left, and stages shrink with it. At 1e-3
+# one way in ten is given up that goes round a lock; at 1e-5 there is hardly one more, and those
+# that end at a lock take half as long again.
 SHORTEST_STAGE = 1e-4
 
 Unknowns = Nine[float]
@@ -82,6 +89,7 @@ def follow(
         if share == 1.0:
             return track._replace(iterations=iterations), start
         origin = own(start)
+        # Half as long again as the last, of a rest that is shorter: any growth will do.
         share = min(1.0, 1.5 * share / (1.0 - share))
     return direct, start
 

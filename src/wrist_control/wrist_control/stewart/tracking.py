@@ -22,9 +22,12 @@ from wrist_control.stewart.quadratics import (
 )
 from wrist_control.stewart.stages import MOST_CORRECTIONS, Tangent, Track, Unknowns
 
-# Where the platform is lower than this share of its size, z cannot lead.
+# (S3) divides by z, and β of (S7) grows with 1 / z²: lower than this share of the size z cannot
+# lead, since what it proves unique falls below NEAR_LOCK. Six legs at a time are slower, no less
+# right, so higher than need be costs time alone.
 LOW = 0.15
-# From so little left of E, one or two steps with a new inverse end at rounding.
+# From so little left of E, one or two steps with a new inverse end at rounding: 1e-12, then 1e-24.
+# Speed alone hangs on it, and ten times more or less costs no more than one step.
 SHARP = 1e-6
 
 
@@ -55,6 +58,7 @@ def solve_planar(
         for count in range(MOST_CORRECTIONS):
             at, e22, e23, e33 = unknowns_and_residual(right, per_t, u1, u2, v2, side)
             left = sqrt(e22 * e22 + 2.0 * e23 * e23 + e33 * e33)
+            # Four units in the last place are rounding; below the floor, so is standing still.
             if left <= 0.125 * floor or floor > left > 0.5 * last:
                 if M_inverse is None:
                     origin, M_inverse = at, newton_inverse(per_t, at)

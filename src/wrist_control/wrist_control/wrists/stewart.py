@@ -29,11 +29,17 @@ from wrist_control.wrists.dimension import dimension, point_list
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Clearance, Configuration, Rates, Wrist, soft_edge
 
-# The hand stops at this margin: closer to lock the legs no longer hold it.
+# The hand stops at this margin, 2.5° of yaw before lock. Ten times closer its pose cannot be told
+# from its twin beyond lock (NEAR_SINGULAR), and Barker's singular region begins; ten times further
+# off, a fifth of the yaw would be lost.
 EDGE = 0.01
-# A platform near lock slips fast, so the edge is neared over this long, s.
+# The edge is neared over this long, s: a yaw of 1 rad/s slows by 1.8 rad/s². Over a tenth of it
+# the hand would stop ten times as hard, and over ten times as much it would brake harder too, all
+# at once, since the braking begins where the margin falls fastest.
 HORIZON = 0.5
-# Lengths this much further on than a pose belong to it only if they fit no other, m.
+# Lengths this much further on than a pose belong to it only if they fit no other, m. It is what a
+# fast leg (0.5 m/s) moves in four readings at 100 Hz: no leg that is followed waits for the slow
+# search, and lengths that mislead lie further from home.
 FAR = 0.02
 
 Points = Sequence[Sequence[float]] | Sequence[float]
