@@ -79,9 +79,14 @@ def test_every_wrist_has_a_ready_parameter_file_that_its_nodes_accept(
 
 
 def demo(environment, *arguments):
-    command = ['python3', '-m', 'wrist_control.demo', *arguments]
+    """Start the demo in the foreground: what a shell starts with & does not hear Ctrl-C."""
     return subprocess.Popen(
-        command, env=environment, stdout=subprocess.PIPE, text=True, start_new_session=True
+        ['python3', '-m', 'wrist_control.demo', *arguments],
+        env=environment,
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )
 
 

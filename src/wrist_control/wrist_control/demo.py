@@ -31,7 +31,8 @@ from wrist_control.graph.processes import NodeProcesses, config_file
 from wrist_control.graph.recording import in_step, recorded_flight
 from wrist_control.operating.maneuvers import BARKER_SPEED
 from wrist_control.studies.barker import Line, three_gimbal_table
-from wrist_control.studies.flight_figures import draw_flight, draw_tip, save
+from wrist_control.studies.flight_figures import draw_flight, draw_tip
+from wrist_control.studies.pictures import save
 from wrist_interfaces.msg import WristStatus
 
 RATE = 32.0

@@ -1,4 +1,4 @@
-"""What the studies of pointing are measured by."""
+"""What the studies of pointing are measured by, and what is read from their pictures."""
 
 import math
 
@@ -15,3 +15,14 @@ def direction():
         return np.array([math.atan2(y, x), math.acos(z)])
 
     return pointed
+
+
+@pytest.fixture(scope='session')
+def curves():
+    """Give the curves of a panel that are named in its legend, (x, y) by name."""
+
+    def named(axes):
+        lines = [line for line in axes.get_lines() if not line.get_label().startswith('_')]
+        return {line.get_label(): line.get_data() for line in lines}
+
+    return named

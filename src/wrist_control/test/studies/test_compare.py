@@ -8,9 +8,10 @@ import pytest
 
 from wrist_control import WRISTS, fly, make_wrist
 from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, Segment, make_maneuver, turn
-from wrist_control.studies.compare import HEADINGS, main, markdown, rows, table
+from wrist_control.studies.compare import HEADINGS, draw, main, markdown, rows, table
 from wrist_control.studies.comparison import (
     JOINT_SPEEDS,
+    Performance,
     about_approach,
     approach_axis,
     compare,
@@ -126,7 +127,58 @@ def test_table_and_markdown_show_every_outcome():
 
 def test_an_unfinished_maneuver_shows_what_stopped_it(tmp_path):
     main(tmp_path, ['single_hooke', 'double_hooke'], [make_maneuver('basic_test')])
-    assert (tmp_path / 'compare.png').stat().st_size > 20_000
+    assert (tmp_path / 'compare.png').read_bytes().startswith(b'\x89PNG')
     single, double = (tmp_path / 'compare.md').read_text(encoding='utf-8').splitlines()[2:4]
     assert 'cone at 1.4 s | no' in single
     assert '| 0.00 |' in double
+
+
+GOOD = Performance('a', 'basic_test', True, 0.0, 1.0, 1.0, 0.0, 1.0, '', math.nan, True)
+WORSE = GOOD._replace(wrist='b', time_lost=1.24, free_peak_rate=7.0, margin=0.3, path_error=0.001)
+STUCK = GOOD._replace(wrist='c', follows_roll=False, stopped_by='cone', stopped_at=1.44)
+LOST = {'time_lost': 30.0, 'free_peak_rate': 200.0, 'margin': 0.0, 'path_error': 1.0}
+CELLS = [GOOD, WORSE, STUCK._replace(completed=False, **LOST)]
+
+
+@pytest.fixture(scope='module')
+def panels():
+    other = [one._replace(maneuver='stick') for one in CELLS]
+    return draw([*CELLS, *other]).axes
+
+
+def test_the_picture_has_a_row_for_each_wrist_and_a_column_for_each_maneuver(panels):
+    assert [axes.get_title() for axes in panels] == [
+        'time lost (s), or what stopped the hand',
+        'peak joint rate without a limit (× the limit)',
+        'path error (deg)',
+        'closest margin (0 at lock)',
+    ]
+    left, lowest = panels[::2], panels[2:]
+    for axes in left:
+        assert [text.get_text() for text in axes.get_yticklabels()] == ['a', 'b', 'c *']
+    for axes in lowest:
+        assert [text.get_text() for text in axes.get_xticklabels()] == ['basic\ntest', 'stick']
+
+
+@pytest.mark.parametrize(
+    ('panel', 'written'),
+    [
+        (0, ['0.0', '1.2', 'cone\nat 1.4 s']),
+        (1, ['1.0', '7.0', '200.0 ×']),
+        (2, ['0.000', '0.057', '57.296 ×']),
+        (3, ['1.00', '0.30', '0.00 ×']),
+    ],
+)
+def test_every_cell_says_its_number_and_is_darker_the_worse_it_is(panels, panel, written):
+    texts = {text.get_position(): text.get_text() for text in panels[panel].texts}
+    rows_of_two = {(x, y): said for y, said in enumerate(written) for x in (0, 1)}
+    assert texts == rows_of_two
+    (image,) = panels[panel].get_images()
+    shades = np.asarray(image.get_array())
+    assert shades.shape == (3, 2)
+    assert (shades[:, 0] == shades[:, 1]).all()
+    assert shades[0, 0] == 0.0
+    assert 0.1 < shades[1, 0] < 0.95
+    assert shades[2, 0] == 1.0
+    colours = {text.get_position()[1]: text.get_color() for text in panels[panel].texts}
+    assert (colours[0], colours[2]) == ('black', 'white')

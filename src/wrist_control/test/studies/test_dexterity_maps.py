@@ -6,9 +6,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from wrist_control import UnreachableError, make_wrist
+from wrist_control import UnreachableError
 from wrist_control.dexterity import principal
-from wrist_control.studies import dexterity_figures
 from wrist_control.studies.canfield_closure import closure_edge, sample, singular_edge
 from wrist_control.studies.canfield_pointing import (
     READINGS,
@@ -136,11 +135,3 @@ def test_tables_show_every_row():
     }
     assert table_4_2().row_count == 8
     assert table_4_3(SOLID, measures).row_count == 15
-
-
-@pytest.mark.parametrize('name', ['three_gimbal', 'carpal'])
-def test_maps_are_drawn(tmp_path, name):
-    path = tmp_path / 'map.png'
-    dexterity_figures.workspace(path, name, make_wrist(name), headings=8, turns=6)
-    assert path.read_bytes().startswith(b'\x89PNG')
-    assert path.stat().st_size < 150_000

@@ -14,11 +14,14 @@ import numpy as np
 from matplotlib.figure import Figure
 from rich.progress import track
 
-from wrist_control.flight import fly
+from wrist_control.flight import Flight, fly
 from wrist_control.operating.maneuvers import extended_test
-from wrist_control.studies.flight_figures import draw_flight, save
+from wrist_control.studies.flight_figures import draw_flight
+from wrist_control.studies.pictures import COLOURS, STYLES, save
 
 GAINS = tuple(float(gain) for gain in np.round(np.arange(0.20, 4.01, 0.05), 2))
+# K of figures 9 and 10, rad/s.
+PAPER_GAIN = 0.8
 SPEEDS = (math.radians(32.0), math.radians(16.0))
 
 
@@ -43,13 +46,29 @@ def draw_figure_11(gains: Sequence[float], peaks: np.ndarray) -> Figure:
     """Draw the peak rate of the extended test maneuver as a function of the gain."""
     figure = Figure(figsize=(7.5, 5.0), layout='constrained')
     axes = figure.subplots()
-    for speed, row, style in zip(SPEEDS, np.degrees(peaks), ('-', '--'), strict=True):
-        hand = f'{math.degrees(speed):g} deg/s'
-        (line,) = axes.plot(gains, row, style, label=f'hand {hand}')
-        axes.axvline(speed, color=line.get_color(), linestyle=':', linewidth=1.0)
+    for speed, row, colour, style in zip(SPEEDS, np.degrees(peaks), COLOURS, STYLES, strict=False):
+        hand = f'hand {math.degrees(speed):g} deg/s'
+        axes.plot(gains, row, linestyle=style, color=colour, label=hand)
+        axes.axvline(speed, color=colour, linestyle=':', linewidth=1.0)
         axes.annotate(f'K = {speed:.2f}', (speed, 3.0), fontsize=8, rotation=90, ha='right')
-        axes.plot(0.8, np.interp(0.8, gains, row), 'o', color=line.get_color())
+        axes.plot(PAPER_GAIN, np.interp(PAPER_GAIN, gains, row), 'o', color=colour)
+    axes.annotate(
+        f'K = {PAPER_GAIN:g}, as in the paper',
+        (PAPER_GAIN, np.interp(PAPER_GAIN, gains, np.degrees(peaks[0]))),
+        xytext=(6, -14),
+        textcoords='offset points',
+        fontsize=9,
+    )
     axes.axhline(32.0, color='grey', linewidth=0.8)
+    axes.annotate(
+        '32 deg/s',
+        (max(gains), 32.0),
+        xytext=(-4, 3),
+        textcoords='offset points',
+        ha='right',
+        fontsize=8,
+        color='grey',
+    )
     axes.set(
         xlabel='gain K (rad/s)',
         ylabel='peak gimbal angle rate (deg/s)',
@@ -62,16 +81,28 @@ def draw_figure_11(gains: Sequence[float], peaks: np.ndarray) -> Figure:
     return figure
 
 
-def main(folder: Path) -> None:
-    """Write the three figures to a folder."""
-    peaks = peak_rates(tracked=lambda pairs: track(pairs, 'flying figure 11'))
-    basic, extended = fly('four_gimbal', 'basic_test'), fly('four_gimbal', 'extended_test')
-    figures = {
-        9: draw_flight(basic, 'Figure 9: four-gimbal wrist, basic test maneuver, K = 0.8'),
-        10: draw_flight(extended, 'Figure 10: four-gimbal wrist, extended test maneuver, K = 0.8'),
-        11: draw_figure_11(GAINS, peaks),
+def draw(
+    basic: Flight, extended: Flight, gains: Sequence[float], peaks: np.ndarray
+) -> dict[int, Figure]:
+    """Return the three figures by their numbers."""
+    wrist = 'four-gimbal wrist'
+    return {
+        9: draw_flight(basic, f'Figure 9: {wrist}, basic test maneuver, K = {PAPER_GAIN:g}'),
+        10: draw_flight(
+            extended, f'Figure 10: {wrist}, extended test maneuver, K = {PAPER_GAIN:g}'
+        ),
+        11: draw_figure_11(gains, peaks),
     }
-    for number, figure in figures.items():
+
+
+def main(folder: Path, gains: Sequence[float] = GAINS) -> None:
+    """Write the three figures to a folder."""
+    peaks = peak_rates(gains, tracked=lambda pairs: track(pairs, 'flying figure 11'))
+    basic, extended = (
+        fly('four_gimbal', maneuver, gain=PAPER_GAIN)
+        for maneuver in ('basic_test', 'extended_test')
+    )
+    for number, figure in draw(basic, extended, gains, peaks).items():
         print(save(figure, folder / f'barker-figure-{number}.png'))
 
 

@@ -23,6 +23,7 @@ from wrist_control.studies.comparison import (
     Performance,
     compare,
 )
+from wrist_control.studies.pictures import save
 from wrist_control.wrists import WRISTS
 
 HEADINGS = (
@@ -92,7 +93,7 @@ class Panel(NamedTuple):
 
     Attributes:
         title: What it is, with its unit.
-        value: Gets it from an performance.
+        value: Gets it from a performance.
         form: How its value is written.
         good: The value drawn palest.
         bad: The value drawn darkest; shades in between are logarithmic.
@@ -105,6 +106,8 @@ class Panel(NamedTuple):
     bad: float
 
 
+# A shade from which white can be read better than black.
+DARK = 0.75
 PANELS = (
     Panel('time lost (s), or what stopped the hand', lambda o: o.time_lost, '{:.1f}', 0.01, 10.0),
     Panel(
@@ -119,8 +122,8 @@ PANELS = (
 )
 
 
-def draw(performances: Sequence[Performance], path: Path) -> None:
-    """Draw the comparison as four maps, wrists by maneuvers."""
+def draw(performances: Sequence[Performance]) -> Figure:
+    """Return the comparison as four maps, wrists by maneuvers."""
     figure = Figure(figsize=(12.0, 9.5), layout='constrained')
     for axes, panel in zip(
         figure.subplots(2, 2, sharex=True, sharey=True).flat, PANELS, strict=True
@@ -131,7 +134,7 @@ def draw(performances: Sequence[Performance], path: Path) -> None:
         'pale is good; × stopped before the end; * points only, without roll',
         fontsize=12,
     )
-    figure.savefig(path, dpi=90)
+    return figure
 
 
 def _draw_panel(axes: Axes, performances: Sequence[Performance], panel: Panel) -> None:
@@ -150,7 +153,7 @@ def _draw_panel(axes: Axes, performances: Sequence[Performance], panel: Panel) -
             ha='center',
             va='center',
             fontsize=7.5 if stopped else 9.5,
-            color='white' if shades[row, column] > 0.6 else 'black',
+            color='white' if shades[row, column] > DARK else 'black',
         )
     axes.imshow(shades, cmap='OrRd', vmin=0.0, vmax=1.15, aspect='auto')
     axes.set_yticks(range(len(wrists)), wrists)
@@ -158,6 +161,8 @@ def _draw_panel(axes: Axes, performances: Sequence[Performance], panel: Panel) -
         range(len(maneuvers)), [name.replace('_', '\n', 1).replace('_', ' ') for name in maneuvers]
     )
     axes.tick_params(length=0)
+    for line in range(1, len(wrists)):
+        axes.axhline(line - 0.5, color='white', linewidth=1.5)
     axes.set_title(panel.title, fontsize=11)
 
 
@@ -179,11 +184,10 @@ def main(
     performances = compare(
         wrists, maneuvers, lambda pairs: track(pairs, 'flying', console=console)
     )
-    folder.mkdir(parents=True, exist_ok=True)
-    draw(performances, folder / 'compare.png')
+    picture = save(draw(performances), folder / 'compare.png', dpi=90.0)
     (folder / 'compare.md').write_text(markdown(performances), encoding='utf-8')
     console.print(table(performances))
-    console.print(f'The picture is {folder / "compare.png"}, the table {folder / "compare.md"}.')
+    console.print(f'The picture is {picture}, the table {folder / "compare.md"}.')
 
 
 if __name__ == '__main__':

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from io import BytesIO
-from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
-from PIL import Image
+from matplotlib.patheffects import withStroke
 
 from wrist_control.dexterity import determinant, disc, principal, singular_ratio, sweep
 from wrist_control.studies.canfield_closure import closure_edge, singular_edge
@@ -24,7 +24,6 @@ from wrist_control.studies.canfield_pointing import (
 from wrist_control.wrists.carpal import Carpal
 from wrist_control.wrists.wrist import Wrist
 
-DPI = 90
 # Few colours read off more easily than many, and make small pictures.
 COLOURS = colormaps['viridis'].resampled(16)
 AXES = 'xyz'
@@ -40,19 +39,24 @@ def carpal(plunge_ratio: float) -> Carpal:
     return Carpal(BASE_RATIO, 1.0, plunge_ratio)
 
 
-def edges(path: Path) -> None:
+def edges() -> Figure:
     """Draw figure 4.3: where closure ends and where det J is 0, over R_d and over α."""
     figure = Figure(figsize=(10.0, 4.2), layout='constrained')
     over_plunge, around = figure.subplots(1, 2)
     ratios = np.append(np.linspace(0.05, 0.66, 30), np.linspace(0.6615, 0.95, 80))
     places = [(carpal(ratio), -0.5 * math.pi) for ratio in ratios]
     _edge_lines(over_plunge, ratios, places, places[31::6])
-    over_plunge.set(xlabel='R_d', ylabel='β at the edge, °', title='slice α = -90°, R_b = 0.75')
+    over_plunge.legend(fontsize='small', loc='lower left')
+    over_plunge.set(
+        xlabel='$R_d$', ylabel='β at the edge, °', title='slice α = -90°, $R_b$ = 0.75'
+    )
     alphas = np.linspace(0.0, math.tau, 145)
     places = [(carpal(0.7), alpha) for alpha in alphas]
     _edge_lines(around, np.degrees(alphas), places, places[::6])
-    around.set(xlabel='α, °', title='all around, R_b = 0.75, R_d = 0.70')
-    _save(figure, path)
+    around.set(
+        xlabel='α, °', xticks=range(0, 361, 60), title='all around, $R_b$ = 0.75, $R_d$ = 0.70'
+    )
+    return figure
 
 
 def _edge_lines(
@@ -68,28 +72,30 @@ def _edge_lines(
     singular = [math.degrees(singular_edge(*place)) for place in marked]
     axes.plot(at, closed, 'o', markersize=8, markerfacecolor='none', label='closure lost')
     axes.plot(at, singular, 'x', label='det J = 0')
-    axes.legend(fontsize='small', loc='upper center')
 
 
-def measures(path: Path) -> None:
+def measures() -> Figure:
     """Draw figure 4.4: determinant and singular-value ratio, R_b = 0.75, R_d = 0.70."""
     alpha, beta, stack = _paper_jacobians(carpal(0.7))
     figure = Figure(figsize=(9.0, 4.2), layout='constrained')
     left, right = figure.subplots(1, 2, subplot_kw={'projection': 'polar'})
     beta, stack = beta[beta < EDGE_OF_VIEW], stack[:, beta < EDGE_OF_VIEW]
-    _map(left, alpha, beta, determinant(stack), 'det J / l')
-    _map(right, alpha, beta, np.minimum(singular_ratio(stack), 20.0), 'σ max / σ min, cut at 20')
-    _save(figure, path)
+    _bar(figure, _map(left, alpha, beta, determinant(stack), 'det J / l'), left)
+    ratio = np.minimum(singular_ratio(stack), 20.0)
+    _bar(figure, _map(right, alpha, beta, ratio, 'σ max / σ min, cut at 20'), right)
+    return figure
 
 
-def plunges(path: Path) -> None:
+def plunges() -> Figure:
     """Draw figure 4.5: the determinant for several R_d."""
     figure = Figure(figsize=(11.0, 7.0), layout='constrained')
-    panels = figure.subplots(2, 3, subplot_kw={'projection': 'polar'}).ravel()
-    for axes, ratio in zip(panels, (0.3, 0.45, 0.6, 0.7, 0.8, 0.9), strict=True):
+    panels = figure.subplots(2, 3, subplot_kw={'projection': 'polar'})
+    for axes, ratio in zip(panels.flat, (0.3, 0.45, 0.6, 0.7, 0.8, 0.9), strict=True):
         alpha, beta, stack = _paper_jacobians(carpal(ratio))
-        _map(axes, alpha, beta, determinant(stack), f'det J / l at R_d = {ratio:g}', top=0.12)
-    _save(figure, path)
+        title = f'det J / l at $R_d$ = {ratio:g}'
+        mesh = _map(axes, alpha, beta, determinant(stack), title, top=0.12)
+    _bar(figure, mesh, panels)
+    return figure
 
 
 def _paper_jacobians(wrist: Carpal) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -102,19 +108,22 @@ def _paper_jacobians(wrist: Carpal) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     return alpha, beta, stack
 
 
-def pointing(path: Path, pointers: Sequence[Pointer], readings: Sequence[Reading]) -> None:
+def pointing(pointers: Sequence[Pointer], readings: Sequence[Reading]) -> Figure:
     """Draw figures 4.8 to 4.10: the least principal dexterity of the three pointers."""
     figure = Figure(figsize=(3.7 * len(pointers), 3.5 * len(readings)), layout='constrained')
-    panels = figure.subplots(len(readings), len(pointers), subplot_kw={'projection': 'polar'})
+    panels = figure.subplots(
+        len(readings), len(pointers), subplot_kw={'projection': 'polar'}, squeeze=False
+    )
     alpha, beta = hemisphere(math.radians(89.5), 90, 60)
     for row, reading in zip(panels, readings, strict=True):
         for axes, pointer in zip(row, pointers, strict=True):
             least = principal(pointing_jacobians(pointer, alpha, beta, reading))[..., -1]
-            _map(axes, alpha, beta, least, f'{pointer.name}, {reading}', top=1.25)
-    _save(figure, path)
+            mesh = _map(axes, alpha, beta, least, f'{pointer.name}, {reading}', top=1.25)
+    _bar(figure, mesh, panels)
+    return figure
 
 
-def workspace(path: Path, name: str, wrist: Wrist, headings: int = 90, turns: int = 60) -> None:
+def workspace(name: str, wrist: Wrist, headings: int = 90, turns: int = 60) -> Figure:
     """Draw the two measures over turns from home about axes between two that are followed."""
     free = wrist.followed_axes
     planes = [plane for plane in ((0, 1), (1, 2), (2, 0)) if set(plane) <= set(free)]
@@ -125,27 +134,31 @@ def workspace(path: Path, name: str, wrist: Wrist, headings: int = 90, turns: in
     for (upper, lower), plane in zip(panels.T, planes, strict=True):
         stack = disc(wrist, plane, heading.tolist(), angle.tolist())
         about = f'turns about {AXES[plane[0]]} (0°) and {AXES[plane[1]]} (90°)'
-        _map(upper, heading, angle, determinant(stack), f'determinant\n{about}')
-        _map(lower, heading, angle, 1.0 / singular_ratio(stack), 'σ min / σ max', top=1.0)
+        _bar(
+            figure, _map(upper, heading, angle, determinant(stack), f'determinant\n{about}'), upper
+        )
+        ratio = 1.0 / singular_ratio(stack)
+        _bar(figure, _map(lower, heading, angle, ratio, 'σ min / σ max', top=1.0), lower)
     rates = ', '.join(RATES[axis] for axis in free)
     figure.suptitle(f'{name}: {rates} over joint rates')
-    _save(figure, path)
+    return figure
 
 
-def overview(path: Path, wrists: dict[str, Wrist]) -> None:
+def overview(wrists: dict[str, Wrist], headings: int = 72, turns: int = 45) -> Figure:
     """Draw σ min / σ max of every wrist over turns about the hand's axes x and y."""
     columns = 5
     rows = -(-len(wrists) // columns)
-    figure = Figure(figsize=(2.6 * columns, 2.9 * rows), layout='constrained')
+    figure = Figure(figsize=(2.4 * columns, 2.6 * rows), layout='constrained')
     panels = figure.subplots(rows, columns, subplot_kw={'projection': 'polar'}, squeeze=False)
-    heading = np.linspace(0.0, math.tau, 72, endpoint=False)
-    angle = np.linspace(0.0, math.pi, 45)
+    heading = np.linspace(0.0, math.tau, headings, endpoint=False)
+    angle = np.linspace(0.0, math.pi, turns)
     for axes in panels.ravel()[len(wrists) :]:
         axes.set_visible(False)
     for axes, (name, wrist) in zip(panels.ravel(), wrists.items(), strict=False):
         stack = disc(wrist, (0, 1), heading.tolist(), angle.tolist())
-        _map(axes, heading, angle, 1.0 / singular_ratio(stack), name, top=1.0)
-    _save(figure, path)
+        mesh = _map(axes, heading, angle, 1.0 / singular_ratio(stack), name, top=1.0)
+    _bar(figure, mesh, panels)
+    return figure
 
 
 def _map(
@@ -155,7 +168,7 @@ def _map(
     values: np.ndarray,
     title: str,
     top: float | None = None,
-) -> None:
+) -> QuadMesh:
     """Draw values over an angle around and an angle outward, rad; NaN stays blank."""
     closed = np.append(around, around[0] + math.tau)
     shown = np.append(values, values[:1], axis=0)
@@ -164,15 +177,15 @@ def _map(
     )
     axes.set_ylim(0.0, math.degrees(outward[-1]))
     axes.set_title(title, fontsize='medium')
-    axes.set_yticks([round(math.degrees(outward[-1]) * part / 3.0) for part in (1, 2, 3)])
+    rings = [round(math.degrees(outward[-1]) * part / 3.0) for part in (1, 2, 3)]
+    # A light edge, so that they are read on dark colours too.
+    edge = [withStroke(linewidth=2.0, foreground='white')]
+    axes.set_yticks(rings, [f'{ring}°' for ring in rings], path_effects=edge)
     axes.tick_params(labelsize='x-small')
     axes.grid(alpha=0.3)
-    figure = axes.get_figure()
-    if figure is not None:
-        figure.colorbar(mesh, ax=axes, shrink=0.7)
+    return mesh
 
 
-def _save(figure: Figure, path: Path) -> None:
-    drawn = BytesIO()
-    figure.savefig(drawn, format='png', dpi=DPI)
-    Image.open(drawn).convert('RGB').quantize(64).save(path, optimize=True)
+def _bar(figure: Figure, mesh: QuadMesh, panels: Any) -> None:
+    """Draw what the colours of one panel, or of several, stand for."""
+    figure.colorbar(mesh, ax=panels, shrink=0.7)

@@ -13,6 +13,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+from matplotlib.figure import Figure
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
@@ -36,6 +37,7 @@ from wrist_control.studies.canfield_pointing import (
     pitch_yaw,
     pointing_measure,
 )
+from wrist_control.studies.pictures import save
 
 # R_b and R_d of Table 4.3 are not printed: these come nearest to its row, and these are the
 # paper's own for figure 4.5, with the largest R_d that it calls a hemisphere.
@@ -98,7 +100,6 @@ def table_4_3(place: Workspace, measures: dict[tuple[str, str, str], Uniformity]
 def main(folder: Path) -> None:
     """Make every table and picture of the study."""
     console = Console()
-    folder.mkdir(parents=True, exist_ok=True)
     measures: dict[tuple[str, str, str], Uniformity] = {}
     for job in track([*_measuring(measures), *_drawing(folder)], 'dexterity', console=console):
         job()
@@ -123,19 +124,20 @@ def _measuring(into: dict[tuple[str, str, str], Uniformity]) -> list[Callable[[]
 
 def _drawing(folder: Path) -> list[Callable[[], None]]:
     wrists = {name: make_wrist(name) for name in WRISTS}
-    maps = [
-        partial(figures.workspace, folder / f'dexterity_map_{name}.png', name, wrist)
-        for name, wrist in wrists.items()
-    ]
     pointers = (POINTERS[0], *POINTERS[2:])
-    return [
-        partial(figures.edges, folder / 'dexterity_fig_4_3.png'),
-        partial(figures.measures, folder / 'dexterity_fig_4_4.png'),
-        partial(figures.plunges, folder / 'dexterity_fig_4_5.png'),
-        partial(figures.pointing, folder / 'dexterity_fig_4_8_to_4_10.png', pointers, READINGS),
-        partial(figures.overview, folder / 'dexterity_wrists.png', wrists),
-        *maps,
-    ]
+    pictures: dict[str, Callable[[], Figure]] = {
+        'fig_4_3': figures.edges,
+        'fig_4_4': figures.measures,
+        'fig_4_5': figures.plunges,
+        'fig_4_8_to_4_10': partial(figures.pointing, pointers, READINGS),
+        'wrists': partial(figures.overview, wrists),
+        **{f'map_{name}': partial(figures.workspace, name, made) for name, made in wrists.items()},
+    }
+
+    def draw(name: str, picture: Callable[[], Figure]) -> None:
+        save(picture(), folder / f'dexterity_{name}.png', dpi=90.0)
+
+    return [partial(draw, *pair) for pair in pictures.items()]
 
 
 if __name__ == '__main__':

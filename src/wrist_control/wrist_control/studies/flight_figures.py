@@ -2,53 +2,46 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use('Agg')  # pictures are files: no screen is needed
-
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wrist_control.flight import Flight
+from wrist_control.studies.pictures import COLOURS, STYLES
 from wrist_control.units import INCH
 
 GREEK = {'psi': 'ψ', 'theta': 'θ', 'phi': 'φ', 'alpha': 'α'}
-# Readable in black and white and by the colour-blind.
-COLORS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9')
-STYLES = ('-', '--', '-.', ':', '-', '--')
+# What a position is shown in, by kind of joint: how many of it, and its name.
+SHOWN = {'revolute': (math.degrees(1.0), 'deg'), 'prismatic': (1.0, 'm')}
 # A rate beyond this many times the commanded one would hide all others.
 CROWDED = 8.0
 
 
 def draw_tip(flight: Flight, title: str) -> Figure:
     """Draw the probe tip over time, as in figure 6."""
-    figure, axes = plt.subplots(figsize=(7.0, 4.0), layout='constrained')
+    figure = Figure(figsize=(7.0, 4.0), layout='constrained')
+    axes = figure.subplots()
     _tip(axes, flight, title)
+    axes.set_xlabel('time, s')
     return figure
 
 
 def draw_flight(flight: Flight, title: str) -> Figure:
     """Draw effective operator inputs, probe tip, joint rates and joint angles, as in figure 7."""
-    figure, axes = plt.subplots(2, 2, figsize=(11.0, 7.5), sharex=True, layout='constrained')
+    figure = Figure(figsize=(11.0, 7.5), layout='constrained')
+    axes = figure.subplots(2, 2, sharex=True)
     _inputs(axes[0, 0], flight)
     _tip(axes[0, 1], flight, '(b) Probe tip in forearm axes')
     _rates(axes[1, 0], flight)
-    _angles(axes[1, 1], flight)
+    _positions(axes[1, 1], flight)
+    for lowest in axes[1]:
+        lowest.set_xlabel('time, s')
+    figure.align_ylabels(axes)
     figure.suptitle(title)
     return figure
-
-
-def save(figure: Figure, path: Path) -> Path:
-    """Write a picture and close it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100)
-    plt.close(figure)
-    return path
 
 
 def _inputs(axes: Axes, flight: Flight) -> None:
@@ -63,15 +56,16 @@ def _tip(axes: Axes, flight: Flight, title: str) -> None:
 
 
 def _rates(axes: Axes, flight: Flight) -> None:
-    rates = np.degrees(flight.joint_rates)
+    factors, unit = _shown(flight)
+    rates = factors * flight.joint_rates
     _lines(axes, flight.time, rates, [f'{name} rate' for name in _names(flight)], steps=True)
-    _label(axes, '(c) Joint rates', 'deg/s')
+    _label(axes, '(c) Joint rates', f'{unit}/s')
     usual = max(1.0, float(np.degrees(np.abs(flight.command).max())))
     if np.abs(rates).max() > CROWDED * usual:
         axes.set_ylim(-2.5 * usual, 2.5 * usual)
         row, joint = np.unravel_index(np.abs(rates).argmax(), rates.shape)
         axes.annotate(
-            f'off the scale: {rates[row, joint]:.0f} deg/s',
+            f'off the scale: {rates[row, joint]:.0f} {unit}/s',
             (flight.time[row], 2.4 * usual),
             xytext=(8, -4),
             textcoords='offset points',
@@ -79,9 +73,17 @@ def _rates(axes: Axes, flight: Flight) -> None:
         )
 
 
-def _angles(axes: Axes, flight: Flight) -> None:
-    _lines(axes, flight.time, np.degrees(flight.joint_positions), _names(flight))
-    _label(axes, '(d) Joint angles', 'deg')
+def _positions(axes: Axes, flight: Flight) -> None:
+    factors, unit = _shown(flight)
+    _lines(axes, flight.time, factors * flight.joint_positions, _names(flight))
+    _label(axes, f'(d) Joint {"angles" if unit == "deg" else "positions"}', unit)
+
+
+def _shown(flight: Flight) -> tuple[np.ndarray, str]:
+    """Return what each joint's position is multiplied by to be shown, and the unit it has then."""
+    shown = [SHOWN[joint.kind] for joint in flight.wrist.joints]
+    units = dict.fromkeys(unit for _, unit in shown)
+    return np.array([factor for factor, _ in shown]), ' or '.join(units)
 
 
 def _names(flight: Flight) -> list[str]:
@@ -96,8 +98,9 @@ def _lines(
             time,
             values[:, column],
             label=name,
-            linewidth=1.6,
-            color=COLORS[column],
+            # Thinner on top of wider: where two are the same, both are seen.
+            linewidth=max(1.2, 2.8 - 0.7 * column),
+            color=COLOURS[column],
             linestyle=STYLES[column],
             drawstyle='steps-post' if steps else 'default',
         )
@@ -106,6 +109,6 @@ def _lines(
 def _label(axes: Axes, title: str, unit: str) -> None:
     axes.set_title(title, loc='left', fontsize=10)
     axes.set_ylabel(unit)
-    axes.set_xlabel('time, s')
     axes.grid(alpha=0.3)
-    axes.legend(frameon=False, fontsize=9)
+    names = len(axes.get_lines())
+    axes.legend(frameon=False, fontsize=9, ncols=1 if names <= 4 else 2)

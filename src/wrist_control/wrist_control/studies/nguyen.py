@@ -6,12 +6,12 @@ python -m wrist_control.studies.nguyen [--out FOLDER]
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-import matplotlib as mpl
 import numpy as np
+from matplotlib.figure import Figure
 from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
@@ -29,18 +29,13 @@ from wrist_control.studies.nguyen_cases import (
     times,
     velocity_errors,
 )
-
-mpl.use('Agg')
-import matplotlib.pyplot as plt
+from wrist_control.studies.pictures import COLOURS, STYLES, save
 
 ROWS = (
     *('x (µin.)', 'y (µin.)', 'z (µin.)', 'α (µrad)', 'β (µrad)', 'γ (µrad)'),
     *(f'l{leg} (in./s)' for leg in range(1, 7)),
 )
 SCHEMES: tuple[Scheme, ...] = ('backward', 'forward', 'central')
-# Line styles of the paper's figures; colours that differ for colour-blind eyes too.
-STYLES = ('-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)))
-COLOURS = ('#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#000000')
 
 
 class Misfit(NamedTuple):
@@ -117,10 +112,8 @@ def search_table(best: Sequence[Misfit]) -> Table:
     return table
 
 
-def figures(folder: Path, progress: Progress | None = None) -> list[Path]:
-    """Draw figures 6 to 11 and return their files."""
-    task = progress.add_task('figures', total=6) if progress else None
-    drawn = []
+def figures() -> Iterator[tuple[int, Figure]]:
+    """Yield figures 6 to 11, with their numbers."""
     for first, case in zip((6, 9), CASES, strict=True):
         pose, velocity = pose_errors(case)[0], velocity_errors(case)
         lines = (
@@ -129,17 +122,15 @@ def figures(folder: Path, progress: Progress | None = None) -> list[Path]:
             (velocity, 'error (in./s)', tuple(f'$l_{leg}$' for leg in range(1, 7))),
         )
         for number, (errors, label, names) in enumerate(lines, start=first):
-            drawn.append(folder / f'figure_{number:02d}.png')
-            _draw(drawn[-1], f'Fig. {number}. {case.name}', times(case), errors, label, names)
-            if progress and task is not None:
-                progress.advance(task)
-    return drawn
+            title = f'Fig. {number}. {case.name}'
+            yield number, _figure(title, times(case), errors, label, names)
 
 
-def _draw(
-    path: Path, title: str, t: np.ndarray, errors: np.ndarray, label: str, names: Sequence[str]
-) -> None:
-    figure, axes = plt.subplots(figsize=(6.4, 3.6), layout='constrained')
+def _figure(
+    title: str, t: np.ndarray, errors: np.ndarray, label: str, names: Sequence[str]
+) -> Figure:
+    figure = Figure(figsize=(6.4, 3.6), layout='constrained')
+    axes = figure.subplots()
     for column, name in enumerate(names):
         axes.plot(
             t, errors[:, column], label=name, lw=1.2, ls=STYLES[column], color=COLOURS[column]
@@ -147,8 +138,7 @@ def _draw(
     axes.set(title=title, xlabel='time (s)', ylabel=label, xlim=(t[0], t[-1]))
     axes.grid(alpha=0.3)
     axes.legend(loc='upper left', bbox_to_anchor=(1.0, 1.0), fontsize='small')
-    figure.savefig(path, dpi=110)
-    plt.close(figure)
+    return figure
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -156,11 +146,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--out', type=Path, default=Path('out/stewart'), help='for the figures')
     folder = parser.parse_args(arguments).out
-    folder.mkdir(parents=True, exist_ok=True)
     console = Console()
     with Progress(console=console, transient=True) as progress:
         best = search(progress)
-        drawn = figures(folder, progress)
+        for number, figure in progress.track(figures(), total=6, description='figures'):
+            save(figure, folder / f'figure_{number:02d}.png', dpi=110.0)
     console.print(search_table(best))
     height, angles = fitted_attitude()
     console.print(
@@ -170,7 +160,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     console.print(table_1())
     for case in CASES:
         console.print(f'{case.name}: {pose_errors(case)[1]:.2f} Newton steps on average; paper: 2')
-    console.print(f'Figures: {drawn[0].parent}/')
+    console.print(f'Figures: {folder}/')
 
 
 if __name__ == '__main__':

@@ -1,0 +1,116 @@
+"""The maps of dexterity show what the wrists do at the places that they stand for."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from wrist_control import make_wrist
+from wrist_control.studies.canfield_pointing import pitch_yaw
+from wrist_control.studies.dexterity_figures import edges, overview, pointing, workspace
+from wrist_control.wrists.carpal import Carpal
+
+HEADINGS, TURNS = 8, 7
+PLACES = [
+    (row, column, math.tau * column / HEADINGS, math.pi * row / (TURNS - 1))
+    for row in range(TURNS)
+    for column in range(HEADINGS)
+]
+
+
+def maps_of(figure):
+    """Return the values of each map of a figure, by title: a row for each ring."""
+    return {
+        axes.get_title(): axes.collections[0].get_array().filled(np.nan)
+        for axes in figure.axes
+        if axes.name == 'polar' and axes.get_visible()
+    }
+
+
+@pytest.fixture(scope='module')
+def three_gimbal():
+    return workspace('three_gimbal', make_wrist('three_gimbal'), HEADINGS, TURNS)
+
+
+def test_the_determinant_of_the_three_gimbal_wrist_is_the_cosine_of_its_middle_angle(three_gimbal):
+    assert three_gimbal.get_suptitle() == 'three_gimbal: p, q, r over joint rates'
+    values = maps_of(three_gimbal)['determinant\nturns about x (0°) and y (90°)']
+    assert values.shape == (TURNS, HEADINGS + 1)
+    np.testing.assert_array_equal(values[:, 0], values[:, -1])  # all the way round
+    for row, column, heading, angle in PLACES:
+        turned = Rotation.from_rotvec([angle * math.cos(heading), angle * math.sin(heading), 0.0])
+        sine = turned.as_matrix()[2, 0]
+        assert values[row, column] == pytest.approx(math.sqrt(1.0 - sine**2), abs=1e-7)
+
+
+def test_every_map_has_degrees_outward_and_a_scale_beside_it(three_gimbal):
+    polar = [axes for axes in three_gimbal.axes if axes.name == 'polar']
+    bars = [axes for axes in three_gimbal.axes if axes.name != 'polar']
+    assert len(polar) == len(bars) == 6
+    for axes in polar:
+        assert axes.get_ylim() == (0.0, pytest.approx(180.0))
+        rings = [text.get_text() for text in axes.get_yticklabels()]
+        assert rings == ['60°', '120°', '180°']
+
+
+def test_outside_the_workspace_a_map_is_blank_and_inside_it_is_not():
+    wrist = Carpal()
+    values = maps_of(workspace('carpal', wrist, HEADINGS, TURNS))['σ min / σ max']
+    home = wrist.forward(wrist.home)
+    for row, column, heading, angle in PLACES:
+        reach = wrist.reach(heading - 0.5 * math.pi)  # turned about the axis 90° before
+        if angle < reach - 0.1:
+            axis = (angle * math.cos(heading), angle * math.sin(heading), 0.0)
+            there = wrist.inverse(wrist.target_pose(home, axis, 1.0), wrist.home)
+            largest, least = np.linalg.svd(wrist.jacobian(there)[:2])[1]
+            assert values[row, column] == pytest.approx(least / largest, abs=1e-9)
+        elif angle > reach:
+            assert math.isnan(values[row, column])
+
+
+def test_the_overview_has_a_map_for_every_wrist_and_one_scale_for_all():
+    names = ['pitch_yaw', 'three_gimbal', 'stewart']
+    figure = overview({name: make_wrist(name) for name in names}, HEADINGS, TURNS)
+    shown = maps_of(figure)
+    assert list(shown) == names
+    assert sum(axes.name != 'polar' for axes in figure.axes) == 1
+    assert {axes.collections[0].get_clim() for axes in figure.axes[:3]} == {(0.0, 1.0)}
+    for row, column, heading, angle in PLACES:
+        turned = Rotation.from_rotvec([angle * math.cos(heading), angle * math.sin(heading), 0.0])
+        if abs(turned.as_matrix()[2, 0]) < 0.9:
+            # σ of ψ, θ, φ with sin θ = s: 1 and √(1 ± |s|).
+            sine = abs(turned.as_matrix()[2, 0])
+            expected = math.sqrt((1.0 - sine) / (1.0 + sine))
+            assert shown['three_gimbal'][row, column] == pytest.approx(expected, abs=1e-7)
+
+
+def test_figure_4_3_has_closure_and_singularity_on_the_closed_form(curves):
+    over_plunge, around = edges().axes
+    for axes in (over_plunge, around):
+        shown = curves(axes)
+        assert list(shown) == ['closed form', 'closure lost', 'det J = 0']
+        (x, closed), lost, singular = shown.values()
+        np.testing.assert_array_equal(lost[0], singular[0])
+        np.testing.assert_allclose(lost[1], np.interp(lost[0], x, closed), atol=1e-5)
+        np.testing.assert_allclose(singular[1], lost[1], atol=1e-5)
+    ratios, reach = curves(over_plunge)['closed form']
+    for ratio, degrees in list(zip(ratios, reach, strict=True))[::10]:
+        wrist = Carpal(0.075, 0.1, 0.1 * ratio)
+        assert degrees == pytest.approx(math.degrees(wrist.reach(-0.5 * math.pi)))
+    assert over_plunge.get_xlabel() == '$R_d$'
+    assert over_plunge.get_ylabel() == 'β at the edge, °'
+    assert around.get_xlabel() == 'α, °'
+
+
+def test_the_least_dexterity_of_the_pitch_yaw_pointer_is_the_cosine_of_theta_1():
+    figure = pointing([pitch_yaw()], ['coordinate-free'])
+    ((title, values),) = maps_of(figure).items()
+    assert title == 'pitch-yaw, coordinate-free'
+    mesh = figure.axes[0].collections[0]
+    corners = mesh.get_coordinates()
+    centres = 0.25 * (
+        corners[1:, 1:] + corners[:-1, 1:] + corners[1:, :-1] + corners[:-1, :-1]
+    )  # azimuth in rad, tilt in degrees
+    y = np.sin(np.radians(centres[..., 1])) * np.sin(centres[..., 0])
+    np.testing.assert_allclose(values, np.sqrt(1.0 - y * y), atol=2e-3)
