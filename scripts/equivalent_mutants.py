@@ -45,4 +45,11 @@ EQUIVALENT = (
         )
         for after in ('(10.0)', '(0.1)', '(2.0)', '(0.0)', '(-1.0)')
     ),
+    Equivalent(
+        'resolving/platform_observer.py',
+        'self._searched = -math.inf',
+        '-math.inf',
+        '(math.inf)',
+        'either way no search lies less than a second back',
+    ),
 )

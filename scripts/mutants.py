@@ -208,7 +208,7 @@ def main() -> int:
     options = parser.parse_args()
     folders = [options.folder] if options.folder else FOLDERS
     mine = options.folder or ''
-    kinds = {}
+    kinds: dict[str, list[Mutant]] = {}
     if not options.random:
         kinds['chosen'] = [one for one in chosen() if one.file.startswith(mine)]
     if not options.chosen:
