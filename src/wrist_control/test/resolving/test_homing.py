@@ -79,3 +79,13 @@ def test_arrived_is_every_joint_in_its_place():
     state = start(WRIST, (0.1, 0.2, 0.3))
     assert has_reached(state, (0.1, 0.2, 0.3))
     assert not has_reached(state, (0.1, 0.2, 0.3 + 1e-6))
+
+
+def test_without_limits_joints_go_home_at_half_a_radian_and_legs_at_two_centimetres_a_second():
+    turning = make_wrist('three_gimbal')
+    turned = step_towards(turning, start(turning), (1.0, 0.0, 0.0), 0.01)
+    assert turned.positions == pytest.approx((0.005, 0.0, 0.0))
+    platform = make_wrist('stewart')
+    higher = [length + 0.01 for length in platform.home]
+    lifted = step_towards(platform, start(platform), higher, 0.01)
+    assert list(lifted.positions) == pytest.approx([x + 0.0002 for x in platform.home])

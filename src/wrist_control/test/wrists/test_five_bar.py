@@ -75,3 +75,10 @@ def test_a_long_step_cannot_jump_over_the_equator():
     pose = WRIST.forward((math.radians(85.0), 0.0))
     with pytest.raises(UnreachableError, match='equator'):
         WRIST.target_pose(pose, (0.0, 1.0, 0.0), math.radians(10.0))
+
+
+def test_the_hand_is_loose_within_a_thousand_millionth_of_both_joints_at_a_right_angle():
+    right = 0.5 * math.pi
+    WRIST.forward((right - 3e-9, right))
+    with pytest.raises(UnreachableError, match='the hand is loose'):
+        WRIST.forward((right - 3e-10, right))

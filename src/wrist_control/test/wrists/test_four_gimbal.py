@@ -264,3 +264,10 @@ def test_figure_11_a_gain_below_the_rate_lets_theta_run_through_lock():
     folded = np.cos(flight.joint_positions[:, 1]) < 0.0
     psi = flight.joint_positions[:, 0] + np.where(folded, math.pi, 0.0)
     assert np.abs(degrees(np.diff(psi)) * 32.0).max() == pytest.approx(180.0 * 32.0, rel=0.01)
+
+
+@pytest.mark.parametrize(('phi', 'sign'), [(0.0, -1.0), (-5e-10, -1.0), (-5e-9, 1.0)])
+def test_round_off_below_a_thousand_millionth_does_not_choose_the_side(phi, sign):
+    """sgn 0 must be +1, and a φ that should be 0 and is not, the same."""
+    rate = WRIST.rates((0.0, 0.5, phi, 0.0), (0.0, 0.1, 0.0))[3]
+    assert rate == pytest.approx(sign * 0.8 * math.sin(0.5))

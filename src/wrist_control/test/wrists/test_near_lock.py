@@ -35,7 +35,29 @@ def test_a_joint_that_was_elsewhere_is_found_although_lock_is_near(name, locked,
 
 
 @pytest.mark.parametrize('side', [-1.0, 1.0])
-@pytest.mark.parametrize(('beyond', 'other'), [(-0.01, False), (0.0, False), (0.01, True)])
+@pytest.mark.parametrize(
+    ('name', 'locked', 'spun'),
+    [
+        ('three_gimbal', (0.3, RIGHT, 0.2), 2),
+        ('double_hooke', (0.3, RIGHT, 0.2), 0),
+        ('omni_wrist', (0.3, RIGHT, 0.2), 0),
+    ],
+)
+def test_the_joint_that_spins_at_lock_is_found_to_some_thousand_millionths_and_kept_from_there(
+    name, locked, spun, side
+):
+    """Nearer, its quotient is round-off, which must not turn a joint."""
+    wrist = make_wrist(name)
+    for near_lock, found_there in ((3e-9, True), (3e-10, False)):
+        positions = tuple(x - side * near_lock * (x == RIGHT) for x in locked)
+        elsewhere = tuple(x + 0.05 * (joint == spun) for joint, x in enumerate(positions))
+        angle = wrist.inverse(wrist.forward(positions), elsewhere)[spun]
+        expected = positions if found_there else elsewhere
+        assert angle == pytest.approx(expected[spun], abs=1e-5)
+
+
+@pytest.mark.parametrize('side', [-1.0, 1.0])
+@pytest.mark.parametrize(('beyond', 'other'), [(-0.01, False), (5e-7, False), (5e-6, True)])
 def test_of_two_branches_the_nearer_in_phi_is_taken_and_of_a_tie_the_one_ahead(
     side, beyond, other
 ):
