@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,12 +13,38 @@ from wrist_control.errors import InvalidValueError
 from wrist_control.operating.maneuvers import ZERO_RATES, Maneuver, make_maneuver
 from wrist_control.operating.pilot import ManeuverClock
 from wrist_control.resolving import State, Step, resting, start, step
-from wrist_control.rotations import Vector, to_forearm
+from wrist_control.rotations import Pose, Vector, to_forearm
 from wrist_control.units import INCH
 from wrist_control.wrists import Wrist, make_wrist
 
 # [Barker1986]: a 6-in. probe along the hand's x axis.
 PROBE = (6.0 * INCH, 0.0, 0.0)
+
+
+class Row(NamedTuple):
+    """One step of a flight: where it starts, and what it does.
+
+    Attributes:
+        positions: Joint positions at its start, rad or m.
+        pose: The hand's pose at its start.
+        command: Commanded p, q, r, rad/s.
+        achieved: The twist really made, (vx, vy, vz, p, q, r) in hand axes.
+        joint_rates: The real increments over the step, rad/s or m/s.
+        scale_factor: F.
+        time_lost: Integral of 1 − F up to its start, s.
+        margin: How far from singular at its start.
+        limited: Names of the joints and limits at work.
+    """
+
+    positions: Sequence[float]
+    pose: Pose
+    command: Sequence[float]
+    achieved: Sequence[float]
+    joint_rates: Sequence[float]
+    scale_factor: float
+    time_lost: float
+    margin: float
+    limited: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -60,6 +86,47 @@ class Flight:
     margin: np.ndarray
     limited: tuple[tuple[str, ...], ...]
     completed: bool
+
+    @classmethod
+    def from_rows(
+        cls,
+        wrist: Wrist,
+        maneuver: Maneuver,
+        dt: float,
+        rows: Sequence[Row],
+        *,
+        probe: Vector = PROBE,
+        completed: bool = True,
+    ) -> Flight:
+        """Return a flight of equal steps.
+
+        Args:
+            wrist: The mechanism that flew.
+            maneuver: What it was asked to do.
+            dt: Duration of each step, s.
+            rows: The steps, in order.
+            probe: End of the probe in hand axes, m.
+            completed: False when the hand could not finish.
+        """
+        poses = [row.pose for row in rows]
+        where = np.array([pose.position for pose in poses])
+        return cls(
+            wrist=wrist,
+            maneuver=maneuver,
+            time=dt * np.arange(len(rows)),
+            command=np.array([row.command for row in rows]),
+            achieved=np.array([row.achieved for row in rows]),
+            joint_positions=np.array([tuple(row.positions) for row in rows]),
+            joint_rates=np.array([row.joint_rates for row in rows]),
+            hand_rotation=np.array([pose.rotation for pose in poses]),
+            hand_position=where,
+            tip=where + np.array([to_forearm(pose.quaternion, probe) for pose in poses]),
+            scale_factor=np.array([row.scale_factor for row in rows]),
+            time_lost=np.array([row.time_lost for row in rows]),
+            margin=np.array([row.margin for row in rows]),
+            limited=tuple(row.limited for row in rows),
+            completed=completed,
+        )
 
 
 def fly(
@@ -105,7 +172,14 @@ def fly(
     rows, completed = _rows(
         wrist, maneuver, start(wrist, initial_positions), 1.0 / rate, patience, progress
     )
-    return _flight(wrist, maneuver, 1.0 / rate, rows, probe, completed)
+    return Flight.from_rows(
+        wrist,
+        maneuver,
+        1.0 / rate,
+        [_row(*sample) for sample in rows],
+        probe=probe,
+        completed=completed,
+    )
 
 
 Sample = tuple[State, Vector, Step]
@@ -137,31 +211,15 @@ def _rows(
     return rows, False
 
 
-def _flight(
-    wrist: Wrist,
-    maneuver: Maneuver,
-    dt: float,
-    rows: list[Sample],
-    probe: Vector,
-    completed: bool,
-) -> Flight:
-    states = [state for state, _, _ in rows]
-    steps = [taken for _, _, taken in rows]
-    position = np.array([state.pose.position for state in states])
-    return Flight(
-        wrist=wrist,
-        maneuver=maneuver,
-        time=dt * np.arange(len(rows)),
-        command=np.array([command for _, command, _ in rows]),
-        achieved=np.array([taken.achieved for taken in steps]),
-        joint_positions=np.array([state.positions for state in states]),
-        joint_rates=np.array([taken.joint_rates for taken in steps]),
-        hand_rotation=np.array([state.pose.rotation for state in states]),
-        hand_position=position,
-        tip=position + np.array([to_forearm(state.pose.quaternion, probe) for state in states]),
-        scale_factor=np.array([taken.scale_factor for taken in steps]),
-        time_lost=np.array([state.time_lost for state in states]),
-        margin=np.array([taken.margin for taken in steps]),
-        limited=tuple(tuple(limit.joint for limit in taken.limits) for taken in steps),
-        completed=completed,
+def _row(state: State, command: Vector, taken: Step) -> Row:
+    return Row(
+        positions=state.positions,
+        pose=state.pose,
+        command=command,
+        achieved=taken.achieved,
+        joint_rates=taken.joint_rates,
+        scale_factor=taken.scale_factor,
+        time_lost=state.time_lost,
+        margin=taken.margin,
+        limited=tuple(limit.joint for limit in taken.limits),
     )

@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from wrist_control.flight import PROBE, Flight
+from wrist_control.flight import Flight, Row
 from wrist_control.operating.maneuvers import Maneuver
 from wrist_control.ros import convert
-from wrist_control.rotations import to_forearm
 from wrist_control.wrists import Wrist
 
 
@@ -31,27 +30,27 @@ def recorded_flight(
     statuses = _moving(heard['wrist_status'])
     commands = _stamped_like(statuses, heard['joint_command'])
     states = _stamped_like(statuses, heard['joint_states'])
-    positions = np.array([state.position for state in states])
-    poses = [wrist.forward(tuple(row)) for row in positions.tolist()]
-    where = np.array([pose.position for pose in poses])
-    factor = np.array([status.scale_factor for status in statuses])
-    asked = np.array([convert.twist_values(status.commanded) for status in statuses])
-    return Flight(
-        wrist=wrist,
-        maneuver=maneuver,
-        time=dt * np.arange(len(statuses)),
-        command=asked[:, -3:],
-        achieved=np.array([convert.twist_values(status.achieved) for status in statuses]),
-        joint_positions=positions,
-        joint_rates=np.array([command.velocity for command in commands]),
-        hand_rotation=np.array([pose.rotation for pose in poses]),
-        hand_position=where,
-        tip=where + np.array([to_forearm(pose.quaternion, PROBE) for pose in poses]),
-        scale_factor=factor,
-        time_lost=np.array([status.time_lost for status in statuses]) - (1.0 - factor) * dt,
-        margin=np.array([status.margin for status in statuses]),
-        limited=tuple(tuple(limit.joint for limit in status.limits) for status in statuses),
-        completed=True,
+    return Flight.from_rows(
+        wrist,
+        maneuver,
+        dt,
+        [_row(wrist, dt, *together) for together in zip(statuses, commands, states, strict=True)],
+    )
+
+
+def _row(wrist: Wrist, dt: float, status: Any, command: Any, state: Any) -> Row:
+    """Return what was said at one tick; a status counts the time that its own step has lost."""
+    positions = tuple(state.position)
+    return Row(
+        positions=positions,
+        pose=wrist.forward(positions),
+        command=convert.twist_values(status.commanded)[-3:],
+        achieved=convert.twist_values(status.achieved),
+        joint_rates=command.velocity,
+        scale_factor=status.scale_factor,
+        time_lost=status.time_lost - (1.0 - status.scale_factor) * dt,
+        margin=status.margin,
+        limited=tuple(limit.joint for limit in status.limits),
     )
 
 
