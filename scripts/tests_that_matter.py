@@ -26,7 +26,16 @@ PARTS_OF = {
     'resolving/platform_observer.py': 'nodes.stewart_forward_kinematics',
 }
 LEFT_OUT = ('test_docs.py', 'test_floors.py')
-SLOW = ('test_edges.py', 'test_stewart_graph.py', 'test_basic_maneuver.py', 'test_processes.py')
+# Slower and slower, and so later and later.
+SLOW = (
+    'test_bad_input.py',
+    'test_parameters.py',
+    'test_resolvers.py',
+    'test_edges.py',
+    'test_stewart_graph.py',
+    'test_basic_maneuver.py',
+    'test_processes.py',
+)
 
 
 def tests_of(file: str) -> list[str]:
@@ -48,8 +57,12 @@ def _graph_tests(file: str) -> Iterator[Path]:
         return
     stem = file.rpartition('/')[2].removesuffix('.py')
     paths = [path for path in GRAPH_TESTS.glob('test_*.py') if path.name not in LEFT_OUT]
-    for path in sorted(paths, key=lambda path: (stem not in path.stem, path.name in SLOW, path)):
+    for path in sorted(paths, key=lambda path: (_slowness(path), stem not in path.stem, path)):
         text = path.read_text()
         # Whatever carries messages is in every node.
         if module.startswith('ros.') or module in text or path.name == 'test_processes.py':
             yield path
+
+
+def _slowness(path: Path) -> int:
+    return SLOW.index(path.name) + 1 if path.name in SLOW else 0
