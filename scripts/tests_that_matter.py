@@ -55,12 +55,16 @@ def _graph_tests(file: str) -> Iterator[Path]:
     module = PARTS_OF.get(file, file.removesuffix('.py').replace('/', '.'))
     if not module.startswith(('nodes.', 'ros.', 'graph.')):
         return
-    stem = file.rpartition('/')[2].removesuffix('.py')
+    word = file.removesuffix('.py').rpartition('_')[2].rpartition('/')[2]
+
+    def lateness(path: Path) -> tuple[object, ...]:
+        return _slowness(path), word not in path.stem, word not in path.read_text(), path
+
     paths = [path for path in GRAPH_TESTS.glob('test_*.py') if path.name not in LEFT_OUT]
-    for path in sorted(paths, key=lambda path: (_slowness(path), stem not in path.stem, path)):
-        text = path.read_text()
+    for path in sorted(paths, key=lateness):
         # Whatever carries messages is in every node.
-        if module.startswith('ros.') or module in text or path.name == 'test_processes.py':
+        known = module.startswith('ros.') or module in path.read_text()
+        if known or path.name == 'test_processes.py':
             yield path
 
 
