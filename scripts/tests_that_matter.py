@@ -26,7 +26,16 @@ PARTS_OF = {
     'resolving/platform_observer.py': 'nodes.stewart_forward_kinematics',
 }
 LEFT_OUT = ('test_docs.py', 'test_floors.py')
-SLOW = ('test_edges.py', 'test_stewart_graph.py', 'test_basic_maneuver.py', 'test_processes.py')
+# Slower and slower, and so later and later.
+SLOW = (
+    'test_bad_input.py',
+    'test_parameters.py',
+    'test_resolvers.py',
+    'test_edges.py',
+    'test_stewart_graph.py',
+    'test_basic_maneuver.py',
+    'test_processes.py',
+)
 
 
 def tests_of(file: str) -> list[str]:
@@ -46,10 +55,18 @@ def _graph_tests(file: str) -> Iterator[Path]:
     module = PARTS_OF.get(file, file.removesuffix('.py').replace('/', '.'))
     if not module.startswith(('nodes.', 'ros.', 'graph.')):
         return
-    stem = file.rpartition('/')[2].removesuffix('.py')
+    word = file.removesuffix('.py').rpartition('_')[2].rpartition('/')[2]
+
+    def lateness(path: Path) -> tuple[object, ...]:
+        return _slowness(path), word not in path.stem, word not in path.read_text(), path
+
     paths = [path for path in GRAPH_TESTS.glob('test_*.py') if path.name not in LEFT_OUT]
-    for path in sorted(paths, key=lambda path: (stem not in path.stem, path.name in SLOW, path)):
-        text = path.read_text()
+    for path in sorted(paths, key=lateness):
         # Whatever carries messages is in every node.
-        if module.startswith('ros.') or module in text or path.name == 'test_processes.py':
+        known = module.startswith('ros.') or module in path.read_text()
+        if known or path.name == 'test_processes.py':
             yield path
+
+
+def _slowness(path: Path) -> int:
+    return SLOW.index(path.name) + 1 if path.name in SLOW else 0

@@ -54,15 +54,14 @@ def refused_of_a_burst(graph, message, topic):
     publisher = graph.publisher(type(message), topic)
     for _ in range(5):
         publisher.publish(message)
-    time.sleep(0.2)  # the executor does not spin: the node is busy
+    time.sleep(0.5)  # the executor does not spin: the node is busy
     said = 'messages refused so far'
 
     def counts():
         messages = [s.message for array in heard for s in array.status if said in s.message]
         return [int(message.split()[0]) for message in messages]
 
-    graph.until(lambda: any(counts()))
-    graph.spin(0.2)
+    graph.until(lambda: len([count for count in counts() if count]) > 1)
     return counts()[-1]
 
 

@@ -120,7 +120,7 @@ def settable(monkeypatch):
 def test_a_system_clock_that_is_set_neither_stops_the_hand_nor_keeps_it_moving(
     graph, settable, ahead
 ):
-    graph.start(Resolver, 'three_gimbal', command_timeout=1.0)
+    graph.start(Resolver, 'three_gimbal', command_timeout=2.0)
     statuses = graph.listen(WristStatus, 'wrist_status')
     publisher = graph.publisher(Twist, 'cmd_vel_unstamped')
 
@@ -136,8 +136,8 @@ def test_a_system_clock_that_is_set_neither_stops_the_hand_nor_keeps_it_moving(
     jump = statuses[-1].header.stamp.sec - statuses[heard - 1].header.stamp.sec
     assert jump == pytest.approx(1e-9 * ahead.nanoseconds, abs=2.0)
     assert statuses[-1].state == WristStatus.TRACKING
-    graph.until(lambda: statuses[-1].state == WristStatus.STALE, limit=5.0)
-    graph.until(lambda: not statuses[-1].commanded.angular.y, limit=5.0)
+    graph.until(lambda: statuses[-1].state == WristStatus.STALE)
+    graph.until(lambda: not statuses[-1].commanded.angular.y)
 
 
 def test_a_joint_that_does_not_follow_is_seen_when_the_system_clock_is_set_back(graph, settable):
@@ -155,11 +155,10 @@ def test_a_joint_that_does_not_follow_is_seen_when_the_system_clock_is_set_back(
         return statuses and statuses[-1].state == state
 
     graph.until(lambda: measured_at_last(WristStatus.IDLE))
+    told = graph.listen(JointState, 'joint_command')
     commands.publish(twist)
-    end = time.monotonic() + 0.4  # 0.8 rad: more than the joint may lag, not yet for long enough
-    while time.monotonic() < end:
-        measured_at_last(WristStatus.TRACKING)
-    assert statuses[-1].state == WristStatus.TRACKING
+    # Further than a joint may lag, but not yet for long enough.
+    graph.until(lambda: measured_at_last(WristStatus.FAULT) or told[-1].position[2] > 0.5)
     settable.ahead = Duration(seconds=-3600.0)
-    graph.until(lambda: measured_at_last(WristStatus.FAULT), limit=5.0)
+    graph.until(lambda: measured_at_last(WristStatus.FAULT))
     assert statuses[-1].message.startswith('phi is at 0.000 but was told ')
