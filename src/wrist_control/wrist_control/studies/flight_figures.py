@@ -99,7 +99,7 @@ def _lines(
             values[:, column],
             label=name,
             # Thinner on top of wider: where two are the same, both are seen.
-            linewidth=max(1.2, 2.8 - 0.7 * column),
+            linewidth=max(1.4, 2.8 - 0.7 * column),
             color=COLOURS[column],
             linestyle=STYLES[column],
             drawstyle='steps-post' if steps else 'default',

@@ -10,7 +10,7 @@ from PIL import Image
 
 # Readable in black and white and by the colour-blind; the third tells itself from the first even
 # where it lies on it.
-COLOURS = ('#0072b2', '#d55e00', '#000000', '#cc79a7', '#009e73', '#e69f00')
+COLOURS = ('#0072b2', '#d55e00', '#000000', '#009e73', '#cc79a7', '#e69f00')
 STYLES = ('-', '--', '-.', ':', (0, (5, 1)), (0, (3, 1, 1, 1)))
 # As many as these pictures need; few make small files.
 PALETTE = 128
