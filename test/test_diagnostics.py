@@ -8,9 +8,11 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist, TwistStamped
 from sensor_msgs.msg import JointState, Joy
 
+from wrist_control import make_wrist
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_interfaces.msg import WristStatus
 
 NAMES = ['psi', 'theta', 'phi']
@@ -214,3 +216,25 @@ def test_a_joint_simulator_says_whom_it_waits_for_and_where_its_joints_are(graph
     state = told.next()['state']
     assert (state.level, state.message) == (OK, 'Simulating 3 joints.')
     assert values(state) == {'psi': '0.100000', 'theta': '0.200000', 'phi': '0.300000'}
+
+
+def test_forward_kinematics_with_a_fresh_pose_is_ok_and_says_how_fresh(graph):
+    graph.start(StewartForwardKinematics)
+    told = Told(graph)
+    home = make_wrist('stewart').home
+    reading = JointState(name=[f'leg_{leg}' for leg in range(1, 7)], position=list(home))
+    publisher = graph.publisher(JointState, 'joint_states')
+
+    def well():
+        publisher.publish(reading)
+        graph.spin(0.05)
+        return told.heard and parts(told.heard[-1])['state'].level == OK
+
+    graph.until(well)
+    shown = values(parts(told.heard[-1])['state'])
+    assert parts(told.heard[-1])['state'].message.startswith('The pose is proved')
+    assert 0.0 <= float(shown['time without a good pose'].removesuffix(' s')) < 1.0
+    assert 0.0 < float(shown['error bound']) < 1e-9
+    assert float(shown['unique radius']) > 0.01
+    assert int(shown['iterations']) >= 0
+    assert (shown['status'], shown['last refused']) == ('0', 'nothing since the last good pose')
