@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from wrist_control import UnreachableError, make_wrist
@@ -59,6 +60,18 @@ def test_lengths_that_are_far_from_home_and_fit_other_poses_are_refused():
     for state in MISLED:
         with pytest.raises(UnreachableError, match='fit more than one pose'):
             WRIST.resolve_assembly(tuple(state.positions), WRIST.home.pose)
+
+
+def test_lengths_a_tenth_of_a_metre_from_home_that_fit_other_poses_are_refused():
+    rng, cold_start = np.random.default_rng(0), WRIST.forward_kinematics.cold_start
+    readings = (tuple((WRIST.home[0] + rng.choice([-0.1, 0.1], 6)).tolist()) for _ in range(100))
+    lengths = next(
+        reading
+        for reading in readings
+        if (cold := cold_start(reading)).others and cold.solution.status == 0
+    )
+    with pytest.raises(UnreachableError, match='fit more than one pose'):
+        WRIST.resolve_assembly(lengths, WRIST.home.pose)
 
 
 @pytest.mark.parametrize('travel', [1e-3, 0.015])
