@@ -52,4 +52,14 @@ EQUIVALENT = (
         '(math.inf)',
         'either way no search lies less than a second back',
     ),
+    *(
+        Equivalent(
+            'wrists/pitch_yaw.py',
+            'before = self.inverse(pose, (0.0, 0.0))',
+            '0.0',
+            after,
+            'whole turns are taken off again',
+        )
+        for after in ('(1.0)', '(-1.0)')
+    ),
 )

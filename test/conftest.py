@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
+import fcntl
 import os
+import random
+import tempfile
 import time
 import uuid
 from collections.abc import Callable, Iterator
@@ -18,16 +20,34 @@ from rclpy.qos import QoSProfile
 
 from wrist_control.graph.lockstep import Lockstep
 
-DOMAINS_PER_WORKER = 45
+# Those whose ports lie below the range that Linux gives away by itself.
+DOMAINS = range(1, 102)
 # Set to another value in each test, so that its processes are told from all others.
 MARK = 'WRIST_CONTROL_TEST'
-_count = itertools.count()
 
 
-def next_domain() -> int:
-    """Return a ROS domain that no other test of this run uses at the same time."""
-    worker = int(os.environ.get('PYTEST_XDIST_WORKER', 'gw0').removeprefix('gw')) % 2
-    return 10 + worker * DOMAINS_PER_WORKER + next(_count) % DOMAINS_PER_WORKER
+class Domain:
+    """A ROS domain that no other test of this machine uses, in another run either.
+
+    A lock on a file says so: the system takes it back even from a test that is killed.
+    """
+
+    def __init__(self) -> None:
+        folder = Path(tempfile.gettempdir()) / 'wrist_control_domains'
+        folder.mkdir(exist_ok=True)
+        for number in random.Random(uuid.uuid4().int).sample(DOMAINS, len(DOMAINS)):
+            self._file = (folder / str(number)).open('w')
+            try:
+                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                self._file.close()
+                continue
+            self.number = number
+            return
+        raise RuntimeError('every ROS domain is in use by another test')
+
+    def release(self) -> None:
+        self._file.close()
 
 
 class Graph:
@@ -39,7 +59,8 @@ class Graph:
     """
 
     def __init__(self) -> None:
-        self.domain = next_domain()
+        self._domain = Domain()
+        self.domain = self._domain.number
         self.context = rclpy.Context()
         rclpy.init(context=self.context, domain_id=self.domain)
         self.executor = SingleThreadedExecutor(context=self.context)
@@ -107,6 +128,7 @@ class Graph:
             node.destroy_node()
         self.executor.shutdown()
         rclpy.shutdown(context=self.context)
+        self._domain.release()
 
 
 @pytest.fixture
@@ -131,9 +153,11 @@ def until_ready() -> Callable[[Any], None]:
 
 
 @pytest.fixture
-def process_environment() -> dict[str, str]:
+def process_environment() -> Iterator[dict[str, str]]:
     """The environment for a test's own processes: a domain of their own, and their mark."""
-    return {**os.environ, 'ROS_DOMAIN_ID': str(next_domain()), MARK: uuid.uuid4().hex}
+    domain = Domain()
+    yield {**os.environ, 'ROS_DOMAIN_ID': str(domain.number), MARK: uuid.uuid4().hex}
+    domain.release()
 
 
 @pytest.fixture

@@ -50,7 +50,10 @@ def twist(x=0.0, y=0.0):
 def test_a_resolver_at_rest_is_ok_by_its_name_and_shows_its_numbers(graph):
     graph.start(Resolver, 'three_gimbal', namespace='left', initial_positions=[0.0, 1.0, 0.0])
     told = Told(graph)
-    state = told.next()['state']
+    first = told.next()
+    assert (first['input'].level, first['input'].message) == (OK, '0 messages refused so far')
+    assert not first['input'].values
+    state = first['state']
     assert state.name == 'left/three_gimbal_resolver: state'
     assert state.hardware_id == 'wrist_control'
     assert (state.level, state.message) == (OK, 'Ready: no motion is commanded.')

@@ -74,3 +74,15 @@ def test_every_row_of_a_table_is_true(graph, section):
             assert descriptor.additional_constraints.endswith(match[0]), name
         if match := re.match(r'up to (\S+) (\S+)$', valid):
             assert descriptor.additional_constraints.endswith(f'to {match[1]} {match[2]}'), name
+
+
+@pytest.mark.parametrize(('wrist', 'unit'), [('three_gimbal', 'rad'), ('stewart', 'm')])
+def test_limits_are_told_in_the_units_of_the_joints(graph, wrist, unit):
+    node = graph.start(Resolver, wrist)
+    for name, expected in (
+        ('joint_rate_limits', f'{unit}/s'),
+        ('joint_lower_limits', unit),
+        ('joint_upper_limits', unit),
+        ('initial_positions', unit),
+    ):
+        assert node.describe_parameter(name).description.endswith(f' [{expected}]'), name

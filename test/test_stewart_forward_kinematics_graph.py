@@ -15,7 +15,8 @@ from wrist_interfaces.msg import ForwardKinematicsStatus
 
 from .stewart_readings import HOME, LEGS, WRIST, Watched, assert_same_pose, pose_of
 
-INTERFACES = (Path(__file__).resolve().parents[1] / 'docs' / 'interfaces.md').read_text()
+DOCS = Path(__file__).resolve().parents[1] / 'docs'
+DOCUMENTED = (DOCS / 'interfaces.md').read_text() + (DOCS / 'wrists.md').read_text()
 
 
 def test_the_pose_is_that_of_the_lengths_with_its_proof(graph):
@@ -133,13 +134,13 @@ def test_other_platforms_are_described_by_their_anchors(graph):
     assert_same_pose(pose_of(watched.poses[-1]), pose)
 
 
-def test_every_parameter_says_what_it_is_and_is_in_the_interfaces_document(graph):
+def test_every_parameter_says_what_it_is_and_is_in_the_documents(graph):
     node = graph.start(StewartForwardKinematics)
     for spec in stewart_forward_kinematics.SPECS:
         descriptor = node.describe_parameter(spec.name)
         assert descriptor.description, spec.name
         assert descriptor.additional_constraints.startswith('valid: '), spec.name
-        assert f'`{spec.name}`' in INTERFACES, spec.name
+        assert f'`{spec.name}`' in DOCUMENTED, spec.name
 
 
 @pytest.mark.parametrize(
