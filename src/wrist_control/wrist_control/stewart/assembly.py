@@ -10,7 +10,7 @@ import numpy as np
 from wrist_control.rotations import Pose, Poses, about_z, product, turned
 from wrist_control.stewart.stages import Track
 
-# Seeds this close find what 80 yaws or directions find, but for one pose in twenty, in a tenth of
+# Seeds this close find what 80 yaws or directions find, but for one pose in fifteen, in a tenth of
 # the time: the search takes 25 ms. More are harmless but slow. Tilts, rad, go beyond a quarter
 # turn, where legs have crossed.
 TILTS = (0.0, 0.5, 1.0, 1.5, 2.2)

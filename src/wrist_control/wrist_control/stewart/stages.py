@@ -9,7 +9,7 @@ from wrist_control.rotations import Pose, quaternion_of, unit
 from wrist_control.stewart.certificate import Proof, make_tuple
 from wrist_control.stewart.quadratics import Matrix, Nine, Number, Six, Three
 
-# Where a proof can hold, Newton's steps end after seven at most; a search from afar takes up to 12
+# Where a proof can hold, Newton's steps end after five at most; a search from afar takes up to 12
 # for every pose that it finds. More are harmless, and cost a search their time.
 MOST_CORRECTIONS = 12
 # The quaternion's first row loses digits as 2 / √trace, which is √8 here: POSE_ERROR rests on it.
