@@ -34,7 +34,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / 'src' / 'wrist_control' / 'wrist_control'
 
 FOLDERS = ('wrists', 'resolving', 'stewart', 'operating', 'ros', 'nodes')
-WORKERS = 2  # as many as test/conftest.py has domains for
+WORKERS = 2  # as many as the cores of a small machine
 GOAL = 0.95  # of the random ones; every chosen one must be found
 LONGEST_TEST = 60  # s
 LONGEST_RUN = 600  # s, after which a fault counts as found: it has made the program hang
@@ -81,7 +81,7 @@ def sample(folder: str, count: int, seed: int) -> list[Mutant]:
 
 
 class Worker:
-    """A copy of the package of its own, and a set of ROS domains of its own."""
+    """A copy of the package of its own."""
 
     def __init__(self, folder: Path, number: int) -> None:
         self._folder = folder / str(number)
@@ -89,7 +89,6 @@ class Worker:
         path = os.pathsep.join([str(self._folder), os.environ.get('PYTHONPATH', '')])
         self._environment = os.environ | {
             'HYPOTHESIS_STORAGE_DIRECTORY': str(self._folder / 'hypothesis'),
-            'PYTEST_XDIST_WORKER': f'gw{number}',
             'PYTHONDONTWRITEBYTECODE': '1',
             'PYTHONPATH': path,
             'ROS_PYTHON_CHECK_FIELDS': '1',
