@@ -18,7 +18,7 @@ TWICE = Pose(unit((0.9687, -0.0673, -0.1093, 0.2126)), (0.0828, 0.0223, 0.5081))
 
 def test_lengths_that_contradict_each_other_are_unreachable():
     solution = FK.solve((0.1, 0.5, 0.5, 0.5, 0.5, 2.5))
-    assert solution.status == Status.UNREACHABLE
+    assert (solution.status, solution.iterations) == (Status.UNREACHABLE, 0)
     assert solution.pose is None
 
 
