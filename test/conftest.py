@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import fcntl
 import os
-import random
 import tempfile
 import time
 import uuid
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -26,27 +26,35 @@ DOMAINS = range(1, 102)
 MARK = 'WRIST_CONTROL_TEST'
 
 
+def _last_use(path: Path) -> int:
+    return path.stat().st_mtime_ns if path.exists() else 0
+
+
 class Domain:
     """A ROS domain that no other test of this machine uses, in another run either.
 
-    A lock on a file says so: the system takes it back even from a test that is killed.
+    A lock on a file says so: the system takes it back even from a test that is killed. The one
+    whose last use is longest ago is taken, for nodes that end may be heard a little longer.
     """
 
     def __init__(self) -> None:
         folder = Path(tempfile.gettempdir()) / 'wrist_control_domains'
         folder.mkdir(exist_ok=True)
-        for number in random.Random(uuid.uuid4().int).sample(DOMAINS, len(DOMAINS)):
-            self._file = (folder / str(number)).open('w')
+        files = [folder / str(number) for number in DOMAINS]
+        for path in sorted(files, key=_last_use):
+            self._file = path.open('a')
             try:
                 fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError:
                 self._file.close()
                 continue
-            self.number = number
+            os.utime(path)
+            self.number = int(path.name)
             return
         raise RuntimeError('every ROS domain is in use by another test')
 
     def release(self) -> None:
+        os.utime(self._file.name)
         self._file.close()
 
 
@@ -117,6 +125,19 @@ class Graph:
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             self.executor.spin_once(timeout_sec=0.02)
+
+    @contextmanager
+    def stranger(self, kind: Any, topic: str) -> Iterator[None]:
+        """Let a node of another process, `old_teleop`, publish on a topic."""
+        context = rclpy.Context()
+        rclpy.init(context=context, domain_id=self.domain)
+        try:
+            node = rclpy.create_node('old_teleop', context=context)
+            node.create_publisher(kind, topic, 10)
+            yield
+            node.destroy_node()
+        finally:
+            rclpy.shutdown(context=context)
 
     def lockstep(self, period: float) -> Lockstep:
         """Return a clock for nodes that use simulated time."""

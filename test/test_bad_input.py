@@ -3,7 +3,6 @@
 import math
 
 import pytest
-import rclpy
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, TwistStamped
@@ -145,11 +144,7 @@ def test_the_joint_simulator_refuses_commands_that_do_not_fit(graph):
 
 
 def test_a_publisher_of_the_wrong_type_is_named_in_one_sentence(graph):
-    stranger = rclpy.Context()
-    rclpy.init(context=stranger, domain_id=graph.domain)
-    try:
-        node = rclpy.create_node('old_teleop', context=stranger)
-        node.create_publisher(Twist, 'cmd_vel', 10)
+    with graph.stranger(Twist, 'cmd_vel'):
         graph.start(Resolver, 'three_gimbal')
         heard = graph.listen(DiagnosticArray, '/diagnostics')
         expected = (
@@ -159,9 +154,6 @@ def test_a_publisher_of_the_wrong_type_is_named_in_one_sentence(graph):
         graph.until(
             lambda: expected in [v.value for a in heard for s in a.status for v in s.values]
         )
-        node.destroy_node()
-    finally:
-        rclpy.shutdown(context=stranger)
 
 
 def test_when_commands_stop_the_hand_is_ramped_to_a_stop(graph):

@@ -3,7 +3,6 @@
 import math
 
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist, TwistStamped
 from sensor_msgs.msg import JointState, Joy
@@ -147,20 +146,13 @@ def test_a_held_command_that_has_run_out_is_a_warning_and_a_fault_is_an_error(gr
 
 
 def test_a_publisher_of_the_wrong_type_is_a_warning_while_the_resolver_is_well(graph):
-    stranger = rclpy.Context()
-    rclpy.init(context=stranger, domain_id=graph.domain)
-    try:
-        node = rclpy.create_node('old_teleop', context=stranger)
-        node.create_publisher(Twist, 'cmd_vel', 10)
+    with graph.stranger(Twist, 'cmd_vel'):
         graph.start(Resolver, 'three_gimbal')
         told = Told(graph)
         graph.until(lambda: told.heard and parts(told.heard[-1])['state'].level == WARN)
         state = parts(told.heard[-1])['state']
         assert state.message == 'Ready: no motion is commanded.'
         assert 'is not heard' in values(state)['old_teleop on /cmd_vel']
-        node.destroy_node()
-    finally:
-        rclpy.shutdown(context=stranger)
 
 
 @pytest.mark.parametrize(
