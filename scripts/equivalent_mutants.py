@@ -37,7 +37,7 @@ EQUIVALENT = (
     ),
     *(
         Equivalent(
-            MANEUVERS,
+            'operating/pilot.py',
             'self._share = 1.0',
             '1.0',
             after,

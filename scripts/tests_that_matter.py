@@ -14,8 +14,8 @@ GRAPH_TESTS = ROOT / 'test'
 
 # Unit tests of other folders that see a folder's faults, after the folder's own.
 FURTHER = {
-    'wrists': ('resolving', 'test_flight.py'),
-    'resolving': ('wrists/test_wrist_laws.py', 'test_flight.py'),
+    'wrists': ('testing', 'resolving', 'test_flight.py'),
+    'resolving': ('testing', 'test_flight.py'),
     'stewart': ('wrists/test_stewart.py', 'wrists/test_stewart_assembly.py', 'resolving'),
     'operating': ('test_flight.py',),
 }

@@ -1,0 +1,42 @@
+"""The lists that `make mutants` goes by are true: every text and every file is still there."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+SCRIPTS = ROOT / 'scripts'
+
+
+@pytest.fixture
+def mutants(monkeypatch):
+    monkeypatch.syspath_prepend(str(SCRIPTS))
+    import mutants
+
+    yield mutants
+    for module in [m for m in sys.modules.values() if _folder(m) == SCRIPTS]:
+        del sys.modules[module.__name__]
+
+
+def _folder(module):
+    return Path(module.__file__).parent if getattr(module, '__file__', None) else None
+
+
+def test_every_chosen_fault_can_be_made(mutants):
+    assert len(mutants.chosen()) >= 37
+
+
+def test_every_fault_that_is_none_could_be_made(mutants):
+    for one in mutants.EQUIVALENT:
+        lines = (mutants.PACKAGE / one.file).read_text().splitlines()
+        assert one.line in [line.strip() for line in lines], one
+        assert one.before in one.line
+
+
+def test_every_module_has_tests_that_matter_and_all_of_them_are_there(mutants):
+    for folder in mutants.FOLDERS:
+        for path in (mutants.PACKAGE / folder).glob('*.py'):
+            tests = mutants.tests_of(f'{folder}/{path.name}')
+            assert tests
+            assert [test for test in tests if not Path(test).is_file()] == []
