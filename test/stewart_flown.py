@@ -5,7 +5,7 @@ from sensor_msgs.msg import JointState
 
 from wrist_control import make_wrist
 from wrist_control.nodes.resolver import Resolver
-from wrist_control.rotations import Pose
+from wrist_control.rotations import Pose, from_xyzw
 from wrist_interfaces.msg import WristStatus
 
 WRIST = make_wrist('stewart')
@@ -51,7 +51,8 @@ class Flown:
 
 def pose_of(pose):
     turn, where = pose.orientation, pose.position
-    return Pose((turn.w, turn.z, turn.y, turn.x), (where.x, where.y, where.z))
+    orientation = from_xyzw((turn.x, turn.y, turn.z, turn.w))
+    return Pose(orientation, (where.x, where.y, where.z))
 
 
 def values(twist):

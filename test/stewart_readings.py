@@ -9,7 +9,6 @@ from sensor_msgs.msg import JointState
 
 from wrist_control import make_wrist
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
-from wrist_control.rotations import Pose
 from wrist_interfaces.msg import ForwardKinematicsStatus
 
 WRIST = make_wrist('stewart')
@@ -69,12 +68,6 @@ class Watched:
         key = f'refused joint_states: {reason}'
         self.graph.until(lambda: int(self.values(': input').get(key, 0)) > 0)
         return self.values(': state')['last refused']
-
-
-def pose_of(message):
-    pose = message.pose.pose
-    turn, where = pose.orientation, pose.position
-    return Pose((turn.w, turn.z, turn.y, turn.x), (where.x, where.y, where.z))
 
 
 def assert_same_pose(found, expected, tolerance=1e-12):

@@ -11,8 +11,9 @@ from wrist_control import WRISTS, make_wrist
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.resolving import start, step
-from wrist_control.rotations import Pose, from_xyzw
 from wrist_interfaces.msg import LimitAtWork, WristStatus
+
+from .stewart_flown import pose_of
 
 RATE = 50.0
 SPEED = 0.5
@@ -61,9 +62,7 @@ def joints(wrist, message, command):
     """Where the joints are; legs do not say it alone, so the platform's pose is asked."""
     if wrist.twist_size == 3:
         return tuple(command.position)
-    where, turn = message.pose.position, message.pose.orientation
-    orientation = from_xyzw((turn.x, turn.y, turn.z, turn.w))
-    return wrist.inverse(Pose(orientation, (where.x, where.y, where.z)), command.position)
+    return wrist.inverse(pose_of(message.pose), command.position)
 
 
 @pytest.mark.parametrize('flown', WITH_EDGES, indirect=True)

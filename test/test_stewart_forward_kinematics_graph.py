@@ -13,7 +13,8 @@ from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinemat
 from wrist_control.rotations import IDENTITY, Pose, rates_between, turned
 from wrist_interfaces.msg import ForwardKinematicsStatus
 
-from .stewart_readings import HOME, LEGS, WRIST, Watched, assert_same_pose, pose_of
+from .stewart_flown import pose_of
+from .stewart_readings import HOME, LEGS, WRIST, Watched, assert_same_pose
 
 DOCS = Path(__file__).resolve().parents[1] / 'docs'
 DOCUMENTED = (DOCS / 'interfaces.md').read_text() + (DOCS / 'wrists.md').read_text()
@@ -29,7 +30,7 @@ def test_the_pose_is_that_of_the_lengths_with_its_proof(graph):
     assert status.unique_radius > 0.01
     assert status.iterations > 0
     assert 'proved' in status.message
-    assert_same_pose(pose_of(watched.poses[-1]), pose)
+    assert_same_pose(pose_of(watched.poses[-1].pose.pose), pose)
     assert watched.poses[-1].header == status.header
     assert status.header.frame_id == 'forearm'
 
@@ -41,7 +42,7 @@ def test_legs_may_come_in_any_order_with_a_prefix_and_among_other_joints(graph):
     joints = [('elbow', math.nan), *reversed(joints), ('leg_1', 7.0)]
     names, lengths = zip(*joints, strict=True)
     graph.until(lambda: watched.status_of(lengths, names).status == 0)
-    assert_same_pose(pose_of(watched.poses[-1]), pose)
+    assert_same_pose(pose_of(watched.poses[-1].pose.pose), pose)
     assert watched.poses[-1].header.frame_id == 'base'
 
 
@@ -101,9 +102,9 @@ def test_the_twist_is_the_change_of_the_pose_in_platform_axes(graph):
     rates = np.subtract(ends[1], ends[0]) / dt
     watched.status_of(WRIST.assembly_at(pose), velocities=rates)
     watched.status_of(ends[0])
-    before = pose_of(watched.poses[-1])
+    before = pose_of(watched.poses[-1].pose.pose)
     watched.status_of(ends[1], after=dt)
-    after = pose_of(watched.poses[-1])
+    after = pose_of(watched.poses[-1].pose.pose)
     travel = np.subtract(after.position, before.position) / dt
     expected = [
         *pose.rotation @ travel,
@@ -131,7 +132,7 @@ def test_other_platforms_are_described_by_their_anchors(graph):
     watched = Watched(graph, platform_anchors=[float(x) for point in raised for x in point])
     pose = Pose(turned(IDENTITY, (0.02, -0.04, 0.03), 1.0), (0.01, -0.01, 0.43))
     graph.until(lambda: watched.status_of(wrist.assembly_at(pose)).status == 0)
-    assert_same_pose(pose_of(watched.poses[-1]), pose)
+    assert_same_pose(pose_of(watched.poses[-1].pose.pose), pose)
 
 
 def test_every_parameter_says_what_it_is_and_is_in_the_documents(graph):

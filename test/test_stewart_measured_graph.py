@@ -19,6 +19,12 @@ from wrist_interfaces.msg import ForwardKinematicsStatus, WristStatus
 
 from .stewart_flown import HOME, LEGS, RATE, WRIST, Flown, pose_of, values
 
+MOTION = [
+    (0.02, 0.01, -0.02, 0.05, 0.0, 0.1),
+    (-0.03, 0.0, 0.01, -0.1, 0.1, 0.0),
+    (0.0, -0.02, 0.02, 0.0, -0.15, -0.2),
+]
+
 
 class Closed(Flown):
     """The three nodes of the platform, with the ready parameters."""
@@ -39,6 +45,13 @@ class Closed(Flown):
                 'forward_kinematics_status': ForwardKinematicsStatus,
             }
         )
+
+    def move(self):
+        """Begin, and follow three twists for 0.6 s each."""
+        self.clock.begin()
+        for twist in MOTION:
+            self.command(twist)
+            self.ticks(30)
 
     def measured(self):
         """Return pairs of what was meant and what was measured of it.
@@ -65,19 +78,9 @@ def ready(node):
     ]
 
 
-MOTION = [
-    (0.02, 0.01, -0.02, 0.05, 0.0, 0.1),
-    (-0.03, 0.0, 0.01, -0.1, 0.1, 0.0),
-    (0.0, -0.02, 0.02, 0.0, -0.15, -0.2),
-]
-
-
 def test_the_measured_pose_is_the_hand_pose_while_it_moves(graph):
     flown = Closed(graph)
-    flown.clock.begin()
-    for twist in MOTION:
-        flown.command(twist)
-        flown.ticks(30)
+    flown.move()
     pairs = flown.measured()
     assert len(pairs) > 85
     for meant, found in pairs:
@@ -95,10 +98,7 @@ def test_the_measured_pose_is_the_hand_pose_while_it_moves(graph):
 
 def test_reset_brings_the_platform_home_by_no_jump_and_is_measured_all_the_way(graph):
     flown = Closed(graph)
-    flown.clock.begin()
-    for twist in MOTION:
-        flown.command(twist)
-        flown.ticks(30)
+    flown.move()
     flown.command((0.0,) * 6)
     away = math.dist(flown.pose.position, WRIST.home.pose.position)
     assert away > 0.005

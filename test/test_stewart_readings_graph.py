@@ -9,7 +9,8 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from wrist_control.rotations import IDENTITY, Pose, turned
 from wrist_interfaces.msg import ForwardKinematicsStatus
 
-from .stewart_readings import HOME, LEGS, WRIST, Watched, ambiguous, assert_same_pose, pose_of
+from .stewart_flown import pose_of
+from .stewart_readings import HOME, LEGS, WRIST, Watched, ambiguous, assert_same_pose
 
 
 def changed(index, value):
@@ -102,7 +103,7 @@ def test_near_lock_the_status_says_so_and_no_pose_is_published(graph):
         if status.status != ForwardKinematicsStatus.CONVERGED:
             break
         poses += 1
-        assert_same_pose(pose_of(watched.poses[-1]), pose, 1e-9)
+        assert_same_pose(pose_of(watched.poses[-1].pose.pose), pose, 1e-9)
     assert status.status == ForwardKinematicsStatus.NEAR_SINGULAR
     assert len(watched.poses) == poses
     graph.until(lambda: watched.part(': state').level == DiagnosticStatus.WARN)

@@ -98,15 +98,15 @@ class Clocked:
 
     Attributes:
         initial: Joint positions where it starts, rad.
-        dt: Its period, s; a command is followed for 0.25 s, and ramped to a stop in 0.1 s.
+        dt: Its period, s; a command is ramped to a stop in 0.1 s after its time is out.
     """
 
     initial = (0.1, 0.2, 0.3)
     dt = 0.01
 
-    def __init__(self, wrist=None, initial=initial):
+    def __init__(self, wrist=None, initial=initial, timeout=0.25):
         wrist = wrist or GIMBALS.with_limits(rates=0.5, lower=-2.0, upper=2.0)
-        self.supervisor = Supervisor(wrist, SupervisorSettings(self.dt, 0.25, 0.1, initial))
+        self.supervisor = Supervisor(wrist, SupervisorSettings(self.dt, timeout, 0.1, initial))
         self.count = 0
 
     @property

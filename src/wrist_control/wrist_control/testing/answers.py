@@ -10,7 +10,7 @@ from wrist_control.resolving.step import SINGULAR_MARGIN, start
 from wrist_control.testing.broken import require, require_close
 from wrist_control.testing.places import (
     Random,
-    followed_axes,
+    followed_components,
     rate_map,
     regular_places,
     twist_between,
@@ -54,16 +54,16 @@ def _difference(wrist: Wrist, positions: Positions, joint: int) -> np.ndarray:
 
 def rates_make_what_the_hand_can_follow(wrist: Wrist, random: Random) -> None:
     """`jacobian` times `rates` of a twist is the twist, in every component that is followed."""
-    axes = followed_axes(wrist)
+    components = followed_components(wrist)
     for positions in regular_places(wrist, random, PLACES):
-        for axis in axes:
-            twist = np.eye(wrist.twist_size)[axis]
+        for component in components:
+            twist = np.eye(wrist.twist_size)[component]
             rates = wrist.rates(positions, tuple(twist.tolist()))
             require(all(map(math.isfinite, rates)), f'rates at {tuple(positions)} are {rates}')
             achieved = wrist.jacobian(positions) @ rates
             what = f'what rates make of {twist.tolist()} at {tuple(positions)}'
             tolerance = 1e-9 * (1.0 + float(np.abs(rates).max()))
-            require_close(achieved[axes], twist[axes], tolerance, what)
+            require_close(achieved[components], twist[components], tolerance, what)
 
 
 def the_joints_can_turn_the_hand_about_its_followed_axes_and_no_other(

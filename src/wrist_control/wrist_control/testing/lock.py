@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -16,7 +17,8 @@ from wrist_control.testing.places import (
     Conditioning,
     Line,
     Random,
-    followed_axes,
+    followed_components,
+    is_outside,
     random_positions,
     random_twist,
     rate_map,
@@ -158,20 +160,23 @@ def margin_is_at_most_about_one(wrist: Wrist, random: Random) -> None:
         require(0.0 < margin <= 1.0 + 1e-9, f'margin at {tuple(positions)} is {margin}')
 
 
+def _places_beside_locks(wrist: Wrist, random: Random) -> Iterator[Positions]:
+    """Yield joint positions so near to locks that what is lost there is plain."""
+    for line, at in locks(wrist, random):
+        with suppress(UnreachableError):
+            yield line(at + 1e-4)
+
+
 def lost_axis_is_the_rotation_that_is_lost(wrist: Wrist, random: Random) -> None:
     """`lost_axis` is a unit vector; near lock it is the rotation that needs the fastest joints.
 
     Or, where a lock lets the hand go, the rotation that moves no joint.
     """
-    axes = followed_axes(wrist)
-    for line, at in locks(wrist, random):
-        try:
-            positions = line(at + 1e-4)
-        except UnreachableError:
-            continue
-        _, gains, directions = np.linalg.svd(rate_map(wrist, positions)[:, axes])
+    components = followed_components(wrist)
+    for positions in _places_beside_locks(wrist, random):
+        _, gains, directions = np.linalg.svd(rate_map(wrist, positions)[:, components])
         hardest = np.zeros(wrist.twist_size)
-        hardest[axes] = directions[-1 if _lets_go(gains) else 0]
+        hardest[components] = directions[-1 if _lets_go(gains) else 0]
         rotation = hardest[-3:] / np.linalg.norm(hardest[-3:])
         lost = np.array(wrist.lost_axis(positions))
         where = tuple(positions)
@@ -191,15 +196,10 @@ def _lets_go(gains: np.ndarray) -> bool:
 def a_lock_that_lets_the_hand_go_is_outside_the_workspace(wrist: Wrist, random: Random) -> None:
     """Where the hand can move though no joint does, a clearance is used up."""
     conditioning = Conditioning(wrist)
-    for line, at in locks(wrist, random):
-        try:
-            positions = line(at + 1e-4)
-        except UnreachableError:
-            continue
+    for positions in _places_beside_locks(wrist, random):
         if _lets_go(conditioning.gains(positions)):
-            remaining = [clearance.remaining for clearance in wrist.clearances(positions)]
-            outside = bool(remaining) and min(remaining) <= 0.0
-            require(outside, f'the hand is loose at {tuple(positions)}, inside every clearance')
+            sentence = f'the hand is loose at {tuple(positions)}, inside every clearance'
+            require(is_outside(wrist, positions), sentence)
 
 
 LOCK = (

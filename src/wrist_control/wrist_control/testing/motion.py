@@ -12,7 +12,14 @@ from wrist_control.errors import UnreachableError
 from wrist_control.resolving.step import SINGULAR_MARGIN, State, Step, start, step
 from wrist_control.testing.broken import require, require_close
 from wrist_control.testing.lock import locks
-from wrist_control.testing.places import Conditioning, Random, random_twist, rate_map
+from wrist_control.testing.places import (
+    Conditioning,
+    Random,
+    followed_components,
+    is_outside,
+    random_twist,
+    rate_map,
+)
 from wrist_control.wrists.wrist import Positions, SteeringState, Wrist
 
 FLIGHTS = 8
@@ -77,14 +84,14 @@ def no_step_breaks_a_limit(wrist: Wrist, random: Random) -> None:
 def the_hand_slows_but_keeps_its_direction(wrist: Wrist, random: Random) -> None:
     """Away from lock the hand does F times the command in all that it follows."""
     tolerance = 1e-7 if len(wrist.followed_axes) == 3 else 0.2
-    axes = range(6) if wrist.twist_size == 6 else wrist.followed_axes
+    components = followed_components(wrist)
     for _, taken, twist in flown(confined(wrist), random):
         if not taken.singular:
             achieved = taken.achieved[-wrist.twist_size :]
-            for axis in axes:
-                wanted = taken.scale_factor * twist[axis]
-                what = f'component {axis} of what is achieved of {twist}'
-                require_close(achieved[axis], wanted, tolerance, what)
+            for component in components:
+                wanted = taken.scale_factor * twist[component]
+                what = f'component {component} of what is achieved of {twist}'
+                require_close(achieved[component], wanted, tolerance, what)
 
 
 def no_command_leaves_everything_as_it_is(wrist: Wrist, random: Random) -> None:
@@ -109,7 +116,7 @@ def a_hand_that_runs_into_a_limit_can_back_out(wrist: Wrist, random: Random) -> 
 
 def a_command_and_its_reverse_come_back(wrist: Wrist, random: Random) -> None:
     """The same way back ends where it began: hand and joints, or the hand of a spare joint."""
-    spare = len(wrist.joints) > (wrist.twist_size if wrist.twist_size == 6 else 3)
+    spare = len(wrist.joints) > wrist.twist_size
     for _ in range(FLIGHTS):
         twist = random_twist(wrist, random, 0.5)
         before = state = start(wrist)
@@ -151,7 +158,7 @@ def _path(wrist: Wrist, twist: Sequence[float]) -> tuple[list[Positions], Unreac
     steering_state: SteeringState = ()
     places: list[Positions] = [wrist.home]
     length, turned = PATH_STEP, 0.0
-    while turned < LONGEST_PATH and not _outside(wrist, places[-1]):
+    while turned < LONGEST_PATH and not is_outside(wrist, places[-1]):
         try:
             near, after = wrist.choose_branch_reference(places[-1], 1.0, length, steering_state)
             target = wrist.target_pose(pose, twist, length)
@@ -163,10 +170,6 @@ def _path(wrist: Wrist, twist: Sequence[float]) -> tuple[list[Positions], Unreac
             continue
         pose, steering_state, turned = target, after, turned + length
     return places, None
-
-
-def _outside(wrist: Wrist, positions: Positions) -> bool:
-    return any(clearance.remaining <= 0.0 for clearance in wrist.clearances(positions))
 
 
 def joints_never_jump_away_from_lock(wrist: Wrist, random: Random) -> None:
@@ -190,7 +193,7 @@ def a_passage_through_lock_stays_on_its_branch(wrist: Wrist, random: Random) -> 
     Where the lock is the edge of the workspace, two branches meet in it, and nothing is asked.
     """
     for line, at in locks(wrist, random):
-        if _outside(wrist, line(at)):
+        if is_outside(wrist, line(at)):
             continue
         near = line(at - 0.1)
         for count in range(1, 8):

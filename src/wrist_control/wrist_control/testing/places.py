@@ -73,11 +73,15 @@ def _unit_twists(size: int) -> list[tuple[list[float], list[float]]]:
     return [(axis.tolist(), (-axis).tolist()) for axis in np.eye(size)]
 
 
-def followed_axes(wrist: Wrist) -> list[int]:
+def followed_components(wrist: Wrist) -> list[int]:
     """Return the components of a twist that the hand follows, by number."""
-    if wrist.twist_size == 6:
-        return list(range(6))
-    return list(wrist.followed_axes)
+    linear = wrist.twist_size - 3
+    return [*range(linear), *(linear + axis for axis in wrist.followed_axes)]
+
+
+def is_outside(wrist: Wrist, positions: Sequence[float]) -> bool:
+    """Return whether a clearance is used up at joint positions."""
+    return any(clearance.remaining <= 0.0 for clearance in wrist.clearances(positions))
 
 
 class Conditioning:
@@ -90,14 +94,14 @@ class Conditioning:
     def __init__(self, wrist: Wrist) -> None:
         """Ask a wrist at home."""
         self._wrist = wrist
-        self._axes = followed_axes(wrist)
+        self._components = followed_components(wrist)
         self._home_gains = self.gains(wrist.home)
 
     def gains(self, positions: Sequence[float]) -> np.ndarray:
         """Return the singular values of joint rates per followed twist, largest first."""
-        mapped = rate_map(self._wrist, positions)[:, self._axes]
+        mapped = rate_map(self._wrist, positions)[:, self._components]
         if not np.isfinite(mapped).all():
-            return np.full(len(self._axes), math.inf)
+            return np.full(len(self._components), math.inf)
         return np.linalg.svd(mapped, compute_uv=False)
 
     def __call__(self, positions: Sequence[float]) -> float:

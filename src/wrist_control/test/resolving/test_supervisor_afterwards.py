@@ -1,7 +1,5 @@
 """After a pause, a fault or a reset: nothing of the time before moves the hand, or stops it."""
 
-import math
-
 import pytest
 
 from wrist_control import make_wrist
@@ -12,41 +10,16 @@ from wrist_control.resolving.supervisor import Mode, Supervisor, SupervisorSetti
 
 DT = 0.01
 LONG = 10.0  # s: no command runs out here
-LIMIT = 0.5
-NAMES = ('psi', 'theta', 'phi')
+WRIST = make_wrist('three_gimbal')
 START = (0.1, 0.2, 0.3)
 ROLL = (0.0, 0.0, 0.0, 0.3, 0.0, 0.0)
 FAST = (0.0, 0.0, 0.0, 60.0, 0.0, 0.0)  # 0.6 rad in one step: more than a joint may lag
 
 
-class Timed:
-    """A supervisor whose clock advances by one period at each tick."""
-
-    def __init__(self, rates=LIMIT):
-        wrist = make_wrist('three_gimbal').with_limits(rates=rates)
-        self.supervisor = Supervisor(wrist, SupervisorSettings(DT, LONG, 0.1, START))
-        self.now = 0.0
-
-    def command(self, twist):
-        self.supervisor.take_command(Command(twist, False, None, self.now))
-
-    def measure(self, positions):
-        self.supervisor.take_measured(NAMES, positions, self.now)
-
-    def ticks(self, seconds):
-        for _ in range(round(seconds / DT)):
-            self.now += DT
-            result = self.supervisor.tick(stamp_time=self.now, receipt_time=self.now)
-        return result
-
-    @property
-    def positions(self):
-        return self.supervisor.state.positions
-
-
 @pytest.fixture
-def timed():
-    return Timed()
+def timed(clocked):
+    """A wrist without limits to its positions, and commands that never run out."""
+    return clocked(WRIST.with_limits(rates=0.5), timeout=LONG)
 
 
 def test_after_a_pause_the_joints_are_believed_until_the_first_motion(timed):
@@ -61,7 +34,7 @@ def test_after_a_pause_the_joints_are_believed_until_the_first_motion(timed):
     timed.measure((0.3, 0.4, 0.5))
     assert timed.positions == (0.3, 0.4, 0.5)
     timed.command(ROLL)
-    timed.ticks(DT)
+    timed.tick()
     moved = timed.positions
     timed.measure((0.3, 0.4, 0.5))
     assert timed.positions == moved
@@ -75,7 +48,7 @@ def test_a_command_from_before_a_pause_does_not_move_the_hand_after_it(timed):
     timed.ticks(0.1)
     paused = timed.positions
     timed.supervisor.enable(True)
-    result = timed.ticks(0.1)
+    result = timed.ticks(0.1)[-1]
     assert (result.wrist_state, result.commanded) == (WristState.IDLE, ZERO_TWIST)
     assert timed.positions == paused
 
@@ -84,21 +57,21 @@ def test_enabling_what_is_enabled_does_not_stop_the_hand(timed):
     timed.command(ROLL)
     timed.ticks(0.1)
     assert timed.supervisor.enable(True).startswith('Enabled')
-    assert timed.ticks(DT).commanded == ROLL
+    assert timed.tick().commanded == ROLL
 
 
-def test_a_lag_from_before_a_fault_does_not_count_after_it():
-    timed = Timed(rates=math.inf)
+def test_a_lag_from_before_a_fault_does_not_count_after_it(clocked):
+    timed = clocked(WRIST, timeout=LONG)
     timed.measure(START)
     timed.command(FAST)
-    timed.ticks(DT)
+    timed.tick()
     timed.measure(START)
     timed.ticks(0.6)
     timed.measure(START)
     assert timed.supervisor.mode is Mode.FAULT
     timed.supervisor.enable(True)
     timed.command(FAST)
-    timed.ticks(DT)
+    timed.tick()
     timed.measure(START)
     assert timed.supervisor.mode is Mode.FOLLOWING
     timed.ticks(0.4)
@@ -132,13 +105,13 @@ def test_a_joint_may_lag_as_far_as_the_interfaces_document_says(name, share):
 def test_a_lag_that_ends_in_between_is_forgotten(timed):
     timed.measure(START)
     timed.command(ROLL)
-    timed.ticks(DT)
+    timed.tick()
     behind = (START[0] - 0.4, *START[1:])
     for now, positions in ((1.0, behind), (1.3, START), (1.4, behind), (1.8, behind)):
-        timed.now = now
+        timed.count = round(now / DT)
         timed.measure(positions)
     assert timed.supervisor.mode is Mode.FOLLOWING
-    timed.now = 1.95
+    timed.count = 195
     timed.measure(behind)
     assert timed.supervisor.mode is Mode.FAULT
 
@@ -147,7 +120,7 @@ def test_a_command_from_before_a_reset_or_during_it_does_not_move_the_hand_after
     timed.command(ROLL)
     timed.ticks(0.3)
     timed.supervisor.reset()
-    timed.ticks(DT)
+    timed.tick()
     timed.command(ROLL)
     timed.ticks(2.0)
     assert timed.supervisor.mode is Mode.FOLLOWING
@@ -158,7 +131,7 @@ def test_joints_that_are_heard_after_a_reset_do_not_count_as_a_start(timed):
     timed.measure(START)
     timed.supervisor.state = timed.supervisor.state._replace(time_lost=1.0)
     timed.supervisor.reset()
-    timed.ticks(DT)
+    timed.tick()
     assert timed.supervisor.state.time_lost == 0.0
     timed.measure((0.2, 0.3, 0.4))
     assert timed.positions == START
