@@ -26,7 +26,8 @@ class Chosen(NamedTuple):
 
 NODE, SETTINGS = 'nodes/resolver.py', 'nodes/resolver_settings.py'
 OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
-SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
+SUPERVISOR, SEARCH = 'resolving/search.py'
+STEP = 'resolving/supervisor.py', 'resolving/step.py'
 JOYSTICK = 'operating/joystick.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 RECEIPT, STAMP = 'self._seconds(self._receipt_clock)', 'self._seconds(self.get_clock())'
@@ -153,9 +154,17 @@ CHOSEN = tuple(
         ('wrists/double_hooke.py', 'LOCK = 1e-9', 'LOCK = 1e-3', 'joints not those of the pose'),
         (STEP, 'SINGULAR_MARGIN = 0.001', 'SINGULAR_MARGIN = 0.01', 'strays further than Barker'),
         (STEP, 'SINGULAR_MARGIN = 0.001', 'SINGULAR_MARGIN = 0.0001', 'rates without bounds'),
-        (STEP, 'SMALLEST_SHARE = 0.1', 'SMALLEST_SHARE = 1e-9', 'held at a limit for good'),
-        (STEP, 'MOST_REDUCTIONS = 60', 'MOST_REDUCTIONS = 6', 'stops before the limit'),
-        (STEP, 'SMALLEST_FACTOR = 1e-6', 'SMALLEST_FACTOR = 1e-2', 'stops before the limit'),
+        (SEARCH, 'LEAP = 0.1', 'LEAP = 1e-9', 'held at a limit for good'),
+        (SEARCH, 'GUESSES = 6', 'GUESSES = 60', 'stops where half of the command can be made'),
+        (SEARCH, 'SMALLEST_FACTOR = 1e-6', 'SMALLEST_FACTOR = 1e-2', 'stops before the limit'),
+        (SEARCH, 'RESOLUTION = 0.01', 'RESOLUTION = 1.0', 'creeps where it could go'),
+        (
+            STEP,
+            'if len(wrist.followed_axes) == 3:',
+            'if True:',
+            'a pointer in lock spins the hand',
+        ),
+        (FOUR, 'math.copysign(1.0, cosine) * s < SIDE', 's < SIDE', 'beyond lock it chatters'),
         # What people and other nodes are told.
         ('resolving/report.py', 'NOTICEABLE = 1e-3', 'NOTICEABLE = 1e-2', 'a lost part is hidden'),
         ('ros/diagnostics.py', "'state', level", "'state', OK", 'a fault is shown green'),

@@ -79,6 +79,62 @@ def test_singular_names_the_lost_axis_and_the_way_out():
     assert 'at 1% of the command: keep on, or reverse to back out.' in message
 
 
+def in_pointer_lock(**changes):
+    pointer = make_wrist('pitch_yaw')
+    lock = limit(LimitKind.SINGULARITY, 'lock', 0.0, 1e-3, 0.0)
+    one = made(pointer, singular=True, limits=(lock,))._replace(**changes)
+    return one._replace(state=one.state._replace(positions=(1.5707963267948966, 0.0))), pointer
+
+
+def test_a_pointer_in_lock_says_that_its_axis_stays_lost():
+    one, pointer = in_pointer_lock(scale_factor=0.0)
+    assert told(one, (0.0, 1.0, 0.0), pointer) == (
+        WristState.SINGULAR,
+        'In lock: the hand cannot turn about its axis (0.00, 1.00, 0.00), and no motion of the '
+        'joints helps; turn it about another axis.',
+    )
+
+
+def test_a_pointer_in_lock_says_which_part_it_follows():
+    one, pointer = in_pointer_lock(scale_factor=0.5)
+    assert told(one, (1.0, 1.0, 0.0), pointer) == (
+        WristState.SINGULAR,
+        'In lock: the hand cannot turn about its axis (0.00, 1.00, 0.00) and leaves that part of '
+        'the command out; the rest is followed at 50%.',
+    )
+
+
+def test_a_pointer_in_lock_and_at_a_limit_names_the_limit():
+    one, pointer = in_pointer_lock(scale_factor=0.0)
+    end = limit(LimitKind.POSITION, 'theta_1', 2.0, 1.6)
+    one = one._replace(limits=(end, *one.limits))
+    assert told(one, (1.0, 1.0, 0.0), pointer) == (
+        WristState.LIMITED,
+        'theta_1 is at its limit of 1.600 rad; move the other way.',
+    )
+
+
+@pytest.mark.parametrize(
+    ('name', 'axes'),
+    [('pitch_yaw', 'x and y'), ('carpal', 'x and y'), ('three_gimbal', 'x, y and z')],
+)
+def test_what_no_joint_can_make_is_no_motion_and_no_time_lost(name, axes):
+    wrist = make_wrist(name)
+    command = (0.1, 0.2, 0.3, 0.0, 0.0, 0.0 if name == 'three_gimbal' else 1.0)
+    one = step(wrist, start(wrist), command, 0.01)
+    assert one.state == start(wrist)
+    assert (one.scale_factor, any(one.joint_rates), any(one.achieved)) == (0.0, False, False)
+    state, message = told(one, command, wrist)
+    assert state == WristState.LIMITED
+    assert message.startswith('Nothing of this command can be done')
+    assert f'its own {axes} axes, and no more' in message
+
+
+def test_a_part_that_no_joint_can_make_is_missing():
+    assert 'missing' in sentence(WRIST, made(), (0.2, 0.0, 0.0, *YAW))
+    assert sentence(WRIST, made(), (0.0, 0.0, 0.0, *YAW)) == 'Following the command.'
+
+
 def test_limited_names_the_joint_and_where_it_stands():
     one = made(scale_factor=0.0, limits=(limit(LimitKind.POSITION, 'theta', 1.2, 1.0),))
     assert told(one) == (
@@ -108,9 +164,11 @@ def test_a_place_to_stop_matters_more_than_a_speed():
     assert message.startswith('phi is at its limit of 2.000 rad')
 
 
-def test_lock_matters_more_than_a_limit():
-    one = made(singular=True, limits=(limit(LimitKind.POSITION),))
-    assert state_of(one, YAW) == WristState.SINGULAR
+def test_a_place_to_stop_matters_more_than_lock():
+    """In lock the joints turn into place, and keeping on would not help one at its limit."""
+    one = made(singular=True, limits=(limit(LimitKind.RATE), limit(LimitKind.POSITION)))
+    assert told(one)[0] == WristState.LIMITED
+    assert told(one)[1].startswith('psi is at its limit')
 
 
 def test_idle_matters_more_than_lock():
@@ -139,7 +197,7 @@ def test_every_message_is_one_sentence(name):
         *(made(wrist, scale_factor=0.5, limits=(limit(kind, joint),)) for kind in LimitKind),
     ]
     for one in steps:
-        for commanded in (ZERO_TWIST, YAW):
+        for commanded in (ZERO_TWIST, (*(0.0,) * (wrist.twist_size - 3), *YAW)):
             message = sentence(wrist, one, commanded)
             assert message.endswith('.')
             assert message[0].isupper() or message.startswith(joint)

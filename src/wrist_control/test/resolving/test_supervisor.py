@@ -75,8 +75,18 @@ def test_a_command_in_hand_axes_turns_the_hand_about_its_own(wrist):
 
 def test_linear_rates_do_not_move_a_wrist_that_only_turns(wrist):
     outcome = wrist.follow((1.0, 1.0, 1.0, 0.0, 0.0, 0.0))
-    assert outcome.wrist_state == WristState.IDLE
+    assert outcome.wrist_state == WristState.LIMITED
+    assert outcome.message == (
+        'Nothing of this command can be done: the wrist turns the hand about its own x, y and z '
+        'axes, and no more; command those rates.'
+    )
     assert wrist.positions == wrist.initial
+
+
+def test_linear_rates_beside_others_are_told_to_be_missing(wrist):
+    outcome = wrist.follow((1.0, 0.0, 0.0, 0.3, 0.0, 0.0))
+    assert outcome.wrist_state == WristState.TRACKING
+    assert 'the rest is missing' in outcome.message
 
 
 def test_linear_rates_move_a_wrist_that_takes_them(clocked):

@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from wrist_control import InvalidValueError, make_wrist
+from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.supervisor import Mode
 
@@ -75,12 +75,28 @@ def test_a_lag_during_a_reset_is_a_fault_too(wrist):
     assert 'phi is at' in outcome.message
 
 
-def test_a_step_that_fails_is_a_fault_that_says_why(clocked, nowhere):
+def test_joints_that_lead_nowhere_stay_and_say_so(clocked, nowhere):
     wrist = clocked(nowhere, (0.0,))
     outcome = wrist.follow((0.0, 0.0, 0.0, 0.1, 0.0, 0.0))
-    assert (outcome.wrist_state, outcome.moving_allowed) == (WristState.FAULT, False)
-    assert 'led nowhere' in outcome.message
+    assert outcome.wrist_state == WristState.LIMITED
+    assert 'no way on' in outcome.message
     assert wrist.positions == (0.0,)
+
+
+def test_a_wrist_that_cannot_say_where_it_is_is_a_fault(clocked, rail):
+    class Lost(rail):
+        def rates(self, positions, twist):
+            if positions[0] > 0.0:
+                raise UnreachableError('The rail is lost.', 'lost')
+            return twist[:1]
+
+    wrist = clocked(Lost(), (0.0,))
+    wrist.follow((0.0, 0.0, 0.0, 0.1, 0.0, 0.0))
+    there = wrist.positions
+    outcome = wrist.tick()
+    assert (outcome.wrist_state, outcome.moving_allowed) == (WristState.FAULT, False)
+    assert outcome.message.startswith('The rail is lost. Call ~/enable')
+    assert wrist.positions == there
 
 
 def test_a_command_that_slipped_through_unfit_is_a_fault_and_moves_nothing(wrist):

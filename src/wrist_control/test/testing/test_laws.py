@@ -90,6 +90,16 @@ def hand_that_creeps(kind):
     return {'target_pose': target_pose}
 
 
+def fourth_gimbal_by_sin_phi_alone(kind):
+    """[Barker1986], eq. (1), as printed: beyond |θ| = 90° it drives φ to where it jumps."""
+
+    def _alpha_rate(self, positions):
+        law, share = kind._alpha_rate(self, positions)
+        return (law if math.cos(positions[1]) > 0.0 else -law), share
+
+    return {'_alpha_rate': _alpha_rate}
+
+
 EVERYONE = tuple(WRISTS)
 # Beyond these edges the mechanism itself ends; a cone is drawn where it need not be.
 WITH_AN_EDGE = ('carpal', 'five_bar', 'stewart')
@@ -107,6 +117,7 @@ FAULTS = {
     half_the_rates: EVERYONE,
     one_sign_in_the_jacobian: EVERYONE,
     hand_that_creeps: EVERYONE,
+    fourth_gimbal_by_sin_phi_alone: ('four_gimbal',),
 }
 CASES = [(fault, name) for fault, names in FAULTS.items() for name in names]
 

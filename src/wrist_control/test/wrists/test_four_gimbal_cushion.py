@@ -55,9 +55,9 @@ def test_alpha_gives_any_other_joint_a_quarter_of_a_second_too(joint):
 
 @pytest.mark.parametrize('joint', [0, 1, 2])
 def test_beyond_a_right_angle_of_theta_it_is_the_same(joint):
-    """There cos θ < 0: ψ and φ turn the other way."""
+    """There cos θ < 0, and α turns the other way, as on the other branch of the same hand."""
     positions, space = (0.0, math.pi - THETA, 0.3, 0.0), 0.01
     speed = make_wrist('four_gimbal').rates(positions, STILL)[joint]
     side = math.copysign(1.0, speed)
     slowed = alpha_rate(space, side, joint, positions)
-    assert slowed == pytest.approx(-LAW * space / (0.25 * abs(speed)), rel=1e-6)
+    assert slowed == pytest.approx(LAW * space / (0.25 * abs(speed)), rel=1e-6)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from enum import IntEnum
 
 from wrist_control.resolving.limits import LimitAtWork, LimitKind
-from wrist_control.resolving.step import Step
+from wrist_control.resolving.step import MECHANISM, Step
 from wrist_control.wrists.wrist import Wrist
 
 # Part of the command that the mechanism may leave out before the operator is told, rad/s or m/s.
@@ -30,10 +30,12 @@ def state_of(step: Step, commanded: Sequence[float]) -> WristState:
     """Return the state that a step shows."""
     if not any(commanded):
         return WristState.IDLE
+    kinds = {limit.kind for limit in step.limits}
+    held = bool(kinds & {LimitKind.POSITION, LimitKind.WORKSPACE})
+    if held:
+        return WristState.LIMITED
     if step.singular:
         return WristState.SINGULAR
-    if any(limit.kind != LimitKind.RATE for limit in step.limits):
-        return WristState.LIMITED
     return WristState.SCALED if step.scale_factor < 1.0 else WristState.TRACKING
 
 
@@ -48,25 +50,44 @@ def sentence(wrist: Wrist, step: Step, commanded: Sequence[float]) -> str:
         return _limited(wrist, step)
     if state == WristState.SCALED:
         return _scaled(wrist, step.limits, step.scale_factor)
-    return _tracking(step, commanded)
+    return _tracking(wrist, step, commanded)
 
 
 def _singular(wrist: Wrist, step: Step) -> str:
     x, y, z = wrist.lost_axis(step.state.positions)
+    lost = f'In lock: the hand cannot turn about its axis ({x:.2f}, {y:.2f}, {z:.2f})'
+    if all(limit.kind != LimitKind.SINGULARITY for limit in step.limits):
+        return (
+            f'{lost}; the joints are turning into place at {step.scale_factor:.0%} of the '
+            'command: keep on, or reverse to back out.'
+        )
+    if step.scale_factor == 0.0:
+        return f'{lost}, and no motion of the joints helps; turn it about another axis.'
     return (
-        f'In lock: the hand cannot turn about its axis ({x:.2f}, {y:.2f}, {z:.2f}); the joints '
-        f'are turning into place at {step.scale_factor:.0%} of the command: keep on, or reverse '
-        'to back out.'
+        f'{lost} and leaves that part of the command out; the rest is followed at '
+        f'{step.scale_factor:.0%}.'
     )
 
 
 def _limited(wrist: Wrist, step: Step) -> str:
-    limit = next(one for one in step.limits if one.kind != LimitKind.RATE)
+    limit = next(
+        one for one in step.limits if one.kind in (LimitKind.POSITION, LimitKind.WORKSPACE)
+    )
+    if limit.joint == MECHANISM:
+        return _nothing_possible(wrist)
     if limit.kind == LimitKind.POSITION:
         where = f'{limit.joint} is at its limit of {limit.allowed:.3f} {_unit(wrist, limit)}'
     else:
         where = f'The wrist is at its limit: {limit.joint}'
     return f'{where}; move the other way.'
+
+
+def _nothing_possible(wrist: Wrist) -> str:
+    *first, last = ('xyz'[axis] for axis in wrist.followed_axes)
+    return (
+        'Nothing of this command can be done: the wrist turns the hand about its own '
+        f'{", ".join(first)} and {last} axes, and no more; command those rates.'
+    )
 
 
 def _scaled(wrist: Wrist, limits: Sequence[LimitAtWork], factor: float) -> str:
@@ -78,9 +99,10 @@ def _scaled(wrist: Wrist, limits: Sequence[LimitAtWork], factor: float) -> str:
     )
 
 
-def _tracking(step: Step, commanded: Sequence[float]) -> str:
-    achieved = step.achieved[-len(commanded) :]
-    missing = [asked - got for asked, got in zip(commanded, achieved, strict=True)]
+def _tracking(wrist: Wrist, step: Step, commanded: Sequence[float]) -> str:
+    asked, impossible = commanded[-wrist.twist_size :], commanded[: -wrist.twist_size]
+    achieved = step.achieved[-wrist.twist_size :]
+    missing = [want - got for want, got in zip(asked, achieved, strict=True)] + [*impossible]
     if max(abs(x) for x in missing) < NOTICEABLE:
         return 'Following the command.'
     return (

@@ -6,8 +6,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
 
 from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.resolving.limits import (
@@ -17,21 +17,21 @@ from wrist_control.resolving.limits import (
     rate_overruns,
     smallest_share,
 )
-from wrist_control.rotations import Pose, rates_between, to_hand
+from wrist_control.resolving.search import Attempt, largest_share
+from wrist_control.rotations import Pose, Vector, rates_between, to_hand
 from wrist_control.wrists.wrist import Configuration, Positions, Rates, SteeringState, Wrist
 
 # Barker's ε0: below this margin instantaneous rates say nothing and average rates are used.
 SINGULAR_MARGIN = 0.001
-# A step that has not fitted after this many reductions is not made at all.
-MOST_REDUCTIONS = 60
-# One reduction keeps at least this: a joint resting on its limit can be led away from it and back
-# over it within one step, so only shorter steps show whether the command leads away.
-SMALLEST_SHARE = 0.1
-# Of what the rate limits allow, less than this is no motion.
-SMALLEST_FACTOR = 1e-6
+# Of a command at lock, less than this share is round-off.
+ROUNDOFF = 1e-9
+# The limits at work that are no joint's and no clearance's: what the mechanism cannot do
+# anywhere, and what it cannot do at lock.
+MECHANISM, LOCK = 'mechanism', 'lock'
 
 Twist = tuple[float, float, float, float, float, float]
 ZERO_TWIST: Twist = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+Target: TypeAlias = 'tuple[Positions, SteeringState]'
 
 
 class State(NamedTuple):
@@ -133,7 +133,8 @@ def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     Args:
         wrist: The mechanism, with the limits to keep.
         state: What the step before left.
-        twist: Commanded twist in hand axes, `wrist.twist_size` values, rad/s and m/s.
+        twist: Commanded twist in hand axes, `wrist.twist_size` values, rad/s and m/s; or six, of
+            which a wrist that does not translate leaves the first three out.
         dt: Duration of the step, s.
 
     Raises:
@@ -144,74 +145,120 @@ def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     if not any(twist):
         return resting(wrist, state)
     margin = wrist.margin(state.positions)
+    asked = twist[-wrist.twist_size :]
+    if not any(asked[component] for component in wrist.followed_components):
+        return _nothing_possible(wrist, state, twist)
     if margin < SINGULAR_MARGIN:
-        return _step_through_lock(wrist, state, twist, dt, margin)
-    return _step_along_command(wrist, state, twist, dt, margin)
+        return _step_at_lock(wrist, state, asked, dt, margin)
+    return _step_along_command(wrist, state, asked, dt, margin)
+
+
+def _nothing_possible(wrist: Wrist, state: State, twist: Sequence[float]) -> Step:
+    """Return the step of a command that the mechanism can do nothing of, here or elsewhere.
+
+    No time is lost: whoever waited for the hand would wait for ever.
+    """
+    limit = LimitAtWork(MECHANISM, LimitKind.WORKSPACE, math.hypot(*twist), 0.0, 0.0)
+    return resting(wrist, state)._replace(scale_factor=0.0, limits=(limit,))
 
 
 def _step_along_command(
     wrist: Wrist, state: State, twist: Sequence[float], dt: float, margin: float
 ) -> Step:
     """Scale the command, never its direction. [Barker1986], fig. 3(a)."""
+
+    def target(factor: float) -> Target:
+        return _target(wrist, state, twist, factor, dt)
+
     limits = rate_overruns(wrist.joints, wrist.rates(state.positions, twist))
-    factor = smallest_share(limits)
-    smallest = SMALLEST_FACTOR * factor
-    for _ in range(MOST_REDUCTIONS):
-        try:
-            positions, steering_state = _target_positions(wrist, state, twist, factor, dt)
-        except UnreachableError as error:
-            limits = [_edge(error)]
-            factor *= 0.5
-            continue
-        found = overruns(wrist, state.positions, positions, dt)
-        if not found:
-            after = State(positions, wrist.forward(positions), steering_state, state.time_lost)
-            return _step_between(state, after, dt, factor, margin, False, limits)
-        limits = _joined(limits, found)
-        factor *= max(SMALLEST_SHARE, smallest_share(found))
-        if factor < smallest:
-            break
-    return _step_between(state, state, dt, 0.0, margin, False, limits)
+    factor, after, limits = largest_share(
+        _within_limits(wrist, state, target, dt), smallest_share(limits), limits
+    )
+    return _step_between(state, after or state, dt, factor, margin, False, limits)
+
+
+def _step_at_lock(
+    wrist: Wrist, state: State, twist: Sequence[float], dt: float, margin: float
+) -> Step:
+    """Turn the joints into place where that helps; where it does not, leave out what is lost.
+
+    Where all three axes are followed, the joints can turn and leave the hand where it is, until
+    the lost axis is regained. Those of a pointer spin the hand, and with it whatever is commanded
+    about the hand's own axes: what is lost there stays lost.
+    """
+    if len(wrist.followed_axes) == 3:
+        return _step_through_lock(wrist, state, twist, dt, margin)
+    lost = LimitAtWork(LOCK, LimitKind.SINGULARITY, margin, SINGULAR_MARGIN, 0.0)
+    rest = _without(wrist.lost_axis(state.positions), twist)
+    if math.hypot(*rest) <= ROUNDOFF * math.hypot(*twist):
+        return _step_between(state, state, dt, 0.0, margin, True, [lost])
+    taken = _step_through_lock(wrist, state, rest, dt, margin)
+    return taken._replace(limits=(*taken.limits, lost))
 
 
 def _step_through_lock(
     wrist: Wrist, state: State, twist: Sequence[float], dt: float, margin: float
 ) -> Step:
     """Scale the joints' way to where the command leads. [Barker1986], fig. 3(b)."""
-    reach, limits = 1.0, []
-    goal, steering_state = state.positions, state.steering_state
-    for _ in range(MOST_REDUCTIONS):
+
+    def aim(reach: float) -> tuple[Target | None, list[LimitAtWork]]:
         try:
-            goal, steering_state = _target_positions(wrist, state, twist, reach, dt)
-            break
+            return _target(wrist, state, twist, reach, dt), []
         except UnreachableError as error:
-            limits = [_edge(error)]
-            reach *= 0.5
-    share = 1.0
-    for _ in range(MOST_REDUCTIONS):
-        positions = tuple(
-            old + share * (new - old) for old, new in zip(state.positions, goal, strict=True)
-        )
-        found = overruns(wrist, state.positions, positions, dt)
-        if not found:
-            after = State(positions, wrist.forward(positions), steering_state, state.time_lost)
-            return _step_between(state, after, dt, reach * share, margin, True, limits)
-        limits = _joined(limits, found)
-        share *= smallest_share(found)
-        if share == 0.0:
-            break
-    return _step_between(state, state, dt, 0.0, margin, True, limits)
+            return None, [_edge(error)]
+
+    reach, found, limits = largest_share(aim, 1.0)
+    goal, steering_state = found or (state.positions, state.steering_state)
+
+    def part_way(share: float) -> Target:
+        way = zip(state.positions, goal, strict=True)
+        return tuple([old + share * (new - old) for old, new in way]), steering_state
+
+    share, after, limits = largest_share(_within_limits(wrist, state, part_way, dt), 1.0, limits)
+    return _step_between(state, after or state, dt, reach * share, margin, True, limits)
 
 
-def _target_positions(
+def _without(axis: Vector, twist: Sequence[float]) -> list[float]:
+    """Return a twist without its rotation about an axis."""
+    *linear, p, q, r = twist
+    x, y, z = axis
+    about = x * p + y * q + z * r
+    return [*linear, p - about * x, q - about * y, r - about * z]
+
+
+def _target(
     wrist: Wrist, state: State, twist: Sequence[float], factor: float, dt: float
-) -> tuple[Positions, SteeringState]:
+) -> Target:
     """Return the joint positions that the scaled command leads to, and the steering state."""
     near, steering_state = wrist.choose_branch_reference(
         state.positions, factor, dt, state.steering_state
     )
     pose = wrist.target_pose(state.pose, [factor * x for x in twist], dt)
     return wrist.inverse(pose, near), steering_state
+
+
+def _within_limits(
+    wrist: Wrist, state: State, target: Callable[[float], Target], dt: float
+) -> Attempt[State]:
+    """Return what makes the state at a share's target, or tells the limits that it would break."""
+
+    def attempt(share: float) -> tuple[State | None, list[LimitAtWork]]:
+        try:
+            positions, steering_state = target(share)
+            if not math.isfinite(sum(positions)):
+                raise UnreachableError('The command leads nowhere.', 'no way on')
+            broken = overruns(wrist, state.positions, positions, dt)
+            if broken:
+                return None, broken
+            return State(positions, wrist.forward(positions), steering_state), []
+        except UnreachableError as error:
+            return None, [_edge(error)]
+
+    return attempt
+
+
+def _edge(error: UnreachableError) -> LimitAtWork:
+    return LimitAtWork(error.limit, LimitKind.WORKSPACE, 0.0, 0.0, 0.0)
 
 
 def _step_between(
@@ -226,12 +273,7 @@ def _step_between(
     joint_rates = tuple(
         [(new - old) / dt for old, new in zip(before.positions, after.positions, strict=True)]
     )
-    if not math.isfinite(sum(joint_rates)):
-        raise UnreachableError(
-            f'The step from {tuple(before.positions)} led nowhere; nothing moves.', 'no way on'
-        )
-    lost = before.time_lost + (1.0 - factor) * dt
-    state = State(after.positions, after.pose, after.steering_state, lost)
+    state = after._replace(time_lost=before.time_lost + (1.0 - factor) * dt)
     achieved = _twist_between(before.pose, after.pose, dt)
     return Step(state, joint_rates, factor, margin, singular, tuple(limits), achieved)
 
@@ -244,13 +286,3 @@ def _twist_between(before: Pose, after: Pose, dt: float) -> Twist:
     travel = ((x1 - x0) / dt, (y1 - y0) / dt, (z1 - z0) / dt)
     vx, vy, vz = to_hand(before.quaternion, travel)
     return (vx, vy, vz, p, q, r)
-
-
-def _joined(limits: list[LimitAtWork], found: list[LimitAtWork]) -> list[LimitAtWork]:
-    """Return all limits, each kind once for a joint: as the whole command asked for it."""
-    known = {(limit.joint, limit.kind) for limit in limits}
-    return limits + [limit for limit in found if (limit.joint, limit.kind) not in known]
-
-
-def _edge(error: UnreachableError) -> LimitAtWork:
-    return LimitAtWork(error.limit, LimitKind.WORKSPACE, 0.0, 0.0, 0.0)

@@ -185,15 +185,14 @@ class Supervisor:
 
     def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:
         commanded, fresh = self._commanded(command, receipt_time)
-        asked = commanded[-self.wrist.twist_size :]
-        taken = step(self.wrist, self.state, asked, self.settings.dt)
+        taken = step(self.wrist, self.state, commanded, self.settings.dt)
         self._moved = self._moved or any(taken.joint_rates)
         self.state = taken.state
         if command is not None and fresh < 1.0 and any(command.twist):
             message = 'No fresh command: ramped to a stop; send commands again to go on.'
             return PeriodResult(WristState.STALE, taken, commanded, message, True)
-        message = sentence(self.wrist, taken, asked)
-        return PeriodResult(state_of(taken, asked), taken, commanded, message, True)
+        message = sentence(self.wrist, taken, commanded)
+        return PeriodResult(state_of(taken, commanded), taken, commanded, message, True)
 
     def _commanded(self, command: Command | None, receipt_time: float) -> tuple[Twist, float]:
         if command is None:

@@ -10,7 +10,6 @@ from wrist_control.resolving.step import SINGULAR_MARGIN, start
 from wrist_control.testing.broken import require, require_close
 from wrist_control.testing.places import (
     Random,
-    followed_components,
     rate_map,
     regular_places,
     twist_between,
@@ -54,7 +53,7 @@ def _difference(wrist: Wrist, positions: Positions, joint: int) -> np.ndarray:
 
 def rates_make_what_the_hand_can_follow(wrist: Wrist, random: Random) -> None:
     """`jacobian` times `rates` of a twist is the twist, in every component that is followed."""
-    components = followed_components(wrist)
+    components = list(wrist.followed_components)
     for positions in regular_places(wrist, random, PLACES):
         for component in components:
             twist = np.eye(wrist.twist_size)[component]

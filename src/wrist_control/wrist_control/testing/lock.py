@@ -17,7 +17,6 @@ from wrist_control.testing.places import (
     Conditioning,
     Line,
     Random,
-    followed_components,
     is_outside,
     random_positions,
     random_twist,
@@ -172,7 +171,7 @@ def lost_axis_is_the_rotation_that_is_lost(wrist: Wrist, random: Random) -> None
 
     Or, where a lock lets the hand go, the rotation that moves no joint.
     """
-    components = followed_components(wrist)
+    components = list(wrist.followed_components)
     for positions in _places_beside_locks(wrist, random):
         _, gains, directions = np.linalg.svd(rate_map(wrist, positions)[:, components])
         hardest = np.zeros(wrist.twist_size)

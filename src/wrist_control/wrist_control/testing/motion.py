@@ -15,7 +15,6 @@ from wrist_control.testing.lock import locks
 from wrist_control.testing.places import (
     Conditioning,
     Random,
-    followed_components,
     is_outside,
     random_twist,
     rate_map,
@@ -84,7 +83,7 @@ def no_step_breaks_a_limit(wrist: Wrist, random: Random) -> None:
 def the_hand_slows_but_keeps_its_direction(wrist: Wrist, random: Random) -> None:
     """Away from lock the hand does F times the command in all that it follows."""
     tolerance = 1e-7 if len(wrist.followed_axes) == 3 else 0.2
-    components = followed_components(wrist)
+    components = list(wrist.followed_components)
     for _, taken, twist in flown(confined(wrist), random):
         if not taken.singular:
             achieved = taken.achieved[-wrist.twist_size :]

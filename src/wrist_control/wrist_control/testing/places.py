@@ -73,12 +73,6 @@ def _unit_twists(size: int) -> list[tuple[list[float], list[float]]]:
     return [(axis.tolist(), (-axis).tolist()) for axis in np.eye(size)]
 
 
-def followed_components(wrist: Wrist) -> list[int]:
-    """Return the components of a twist that the hand follows, by number."""
-    linear = wrist.twist_size - 3
-    return [*range(linear), *(linear + axis for axis in wrist.followed_axes)]
-
-
 def is_outside(wrist: Wrist, positions: Sequence[float]) -> bool:
     """Return whether a clearance is used up at joint positions."""
     return any(clearance.remaining <= 0.0 for clearance in wrist.clearances(positions))
@@ -94,7 +88,7 @@ class Conditioning:
     def __init__(self, wrist: Wrist) -> None:
         """Ask a wrist at home."""
         self._wrist = wrist
-        self._components = followed_components(wrist)
+        self._components = list(wrist.followed_components)
         self._home_gains = self.gains(wrist.home)
 
     def gains(self, positions: Sequence[float]) -> np.ndarray:

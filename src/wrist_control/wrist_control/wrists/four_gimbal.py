@@ -103,10 +103,10 @@ class FourGimbal(Wrist):
         """
         _, theta, phi, _ = positions
         law = -self.gain * math.sin(theta)  # [Barker1986], eq. (1)
-        if math.sin(phi) < SIDE:
-            law = -law
         s, c = math.sin(phi), math.cos(phi)
         cosine = math.cos(theta)
+        if math.copysign(1.0, cosine) * s < SIDE:
+            law = -law
         share = 1.0
         # cos θ times the joints' rates for α̇ = 1 and a hand at rest: no division at lock.
         moves = (-c, s * cosine, -c * math.sin(theta), cosine)

@@ -137,6 +137,12 @@ class Wrist(ABC):
         """Joint positions to start from when nothing else is asked for; 0 unless overridden."""
         return (0.0,) * len(self.joints)
 
+    @property
+    def followed_components(self) -> tuple[int, ...]:
+        """The components of a command that it can follow, as indices; the rest is forced."""
+        linear = self.twist_size - 3
+        return (*range(linear), *(linear + axis for axis in self.followed_axes))
+
     @abstractmethod
     def forward(self, positions: Sequence[float]) -> Pose:
         """Return the pose of the hand in the forearm frame.
