@@ -72,6 +72,35 @@ def test_figure_1c_element_c12_has_a_plus():
     assert 2.0 * (a3 * a4 - a1 * a2) != pytest.approx(c12, rel=0.01)
 
 
+def test_figures_1c_and_2d_element_c33_has_squares_and_a_plus():
+    a1, a2, a3, a4 = quaternion(*GIMBALS[:3])
+    c33 = THREE.forward(GIMBALS[:3]).rotation[2, 2]
+    assert a1**2 + a2**2 - a3**2 - a4**2 == pytest.approx(c33)
+    for printed in (a1**2 + a2 - a3 - a4, a1**2 - a2**2 - a3**2 - a4**2):
+        assert printed != pytest.approx(c33, rel=0.01)
+
+
+def test_c_goes_from_forearm_axes_to_hand_axes_with_every_gimbal_in_it():
+    """Axes that any gimbal carries would leave that gimbal's turn out of C."""
+    hand_axes = Rotation.from_euler('ZYX', GIMBALS[:3]).as_matrix()  # in forearm axes, columns
+    a1, a2, a3, a4 = quaternion(*GIMBALS[:3])
+    c11, c12, c13 = (
+        a1**2 - a2**2 - a3**2 + a4**2,
+        2.0 * (a3 * a4 + a1 * a2),
+        2.0 * (a2 * a4 - a1 * a3),
+    )
+    np.testing.assert_allclose((c11, c12, c13), hand_axes[:, 0], atol=1e-12)
+    without_psi = Rotation.from_euler('YX', GIMBALS[1:3]).as_matrix()
+    assert np.abs(without_psi[:, 0] - (c11, c12, c13)).max() > 0.1
+
+
+def test_the_tip_is_computed_in_forearm_axes():
+    """The maneuver's three points are given in forearm axes, and L c11, L c12, L c13 are there."""
+    flight = fly('three_gimbal', 'basic_test')
+    tips = 6.0 * flight.hand_rotation[[0, 90, -1], 0]
+    np.testing.assert_allclose(tips, [(6, 0, 0), (0, 0, -6), (0, 6, 0)], atol=1e-9)
+
+
 def initialized(signs):
     """Return figure 2(b) with a sign before each second product."""
     s, c = zip(*((sin(0.5 * x), cos(0.5 * x)) for x in GIMBALS[:3]), strict=True)

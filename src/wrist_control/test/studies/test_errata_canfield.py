@@ -216,3 +216,39 @@ def test_determinant_falls_with_the_root_of_the_discriminant():
     rows = [sample(TABLE_4_2, TABLE_4_2_AZIMUTH, tilt) for tilt in TABLE_4_2_TILTS]
     ratios = [row.determinant**2 / row.discriminant for row in rows]
     assert max(ratios) / min(ratios) < 1.05
+
+
+def test_4_3_is_the_inverse_mechanical_advantage_along_principal_directions_alone():
+    """μ is force over torque: by virtual work a force f at the hand needs the torques Jᵀ f."""
+    chance = np.random.default_rng(3)
+    jacobian = chance.normal(size=(3, 3))
+    for _ in range(5):
+        along, rates = chance.normal(size=(2, 3))
+        along /= np.linalg.norm(along)
+        torques = jacobian.T @ along
+        assert torques @ rates == pytest.approx(along @ jacobian @ rates)
+        d = 1.0 / np.linalg.norm(np.linalg.solve(jacobian, along))
+        assert d < 0.99 * np.linalg.norm(torques)
+    left, values, _ = np.linalg.svd(jacobian)
+    for along, value in zip(left.T, values, strict=True):
+        assert 1.0 / np.linalg.norm(np.linalg.solve(jacobian, along)) == pytest.approx(value)
+        assert np.linalg.norm(jacobian.T @ along) == pytest.approx(value)
+
+
+def test_4_5_holds_for_velocities_that_the_joints_can_make_alone():
+    chance = np.random.default_rng(4)
+    jacobian = chance.normal(size=(3, 2))
+    gram = np.linalg.inv(jacobian.T @ jacobian)
+
+    def printed(v):
+        return np.sqrt(v @ v / (v @ jacobian @ gram.T @ gram @ jacobian.T @ v))
+
+    rates = chance.normal(size=2)
+    reachable = jacobian @ rates
+    true = np.linalg.norm(reachable) / np.linalg.norm(rates)
+    assert printed(reachable) == pytest.approx(true)
+    outward = np.cross(*jacobian.T)
+    outward /= np.linalg.norm(outward)
+    for share in (1.0, 10.0, 1e6):
+        v = reachable + share * np.linalg.norm(reachable) * outward
+        assert printed(v) == pytest.approx(true * np.hypot(1.0, share))

@@ -16,12 +16,11 @@ from rich.progress import track
 
 from wrist_control.flight import Flight, fly
 from wrist_control.operating.maneuvers import extended_test
+from wrist_control.studies.barker_figure_5 import PAPER_GAIN
 from wrist_control.studies.flight_figures import draw_flight
 from wrist_control.studies.pictures import COLOURS, STYLES, save
 
 GAINS = tuple(float(gain) for gain in np.round(np.arange(0.20, 4.01, 0.05), 2))
-# K of figures 9 and 10, rad/s.
-PAPER_GAIN = 0.8
 SPEEDS = (math.radians(32.0), math.radians(16.0))
 
 

@@ -25,8 +25,9 @@ HEIGHT = 17.0  # in., found
 LEVEL = PaperAngles(0.0, 0.0, 0.0)
 PLATFORM = np.array(ring(10.441, math.radians(99.20)))
 BASE = np.array(ring(13.838, math.radians(16.0)))
-# Tolerances of the Newton-Raphson algorithm: with these it takes the 2 steps that the paper tells.
-TOLF, TOLA = 1e-4, 1e-6
+# Both tolerances of the Newton-Raphson algorithm, tolf in in.² and tola in in. and rad: with this
+# one it takes the 2 steps that the paper tells, in both cases.
+TOLERANCE = 1e-3
 MOST_ITERATIONS = 20
 
 Scheme = Literal['backward', 'forward', 'central']
@@ -151,17 +152,17 @@ def pose_errors(case: Case) -> tuple[np.ndarray, float]:
 def newton_raphson(lengths: np.ndarray, a: np.ndarray) -> tuple[np.ndarray, int]:
     """Return the paper's answer, and in how many steps. [Nguyen1991], section 4, steps 2 to 7.
 
-    Step 6 takes |δa|, which the paper forgets.
+    Corrected: step 6 takes |δa|, and comes after step 7's addition, so that the last δa counts.
     """
     for steps in range(MOST_ITERATIONS):
         found, derivative = squares(a)
         f = found - lengths * lengths
-        if np.abs(f).sum() < TOLF:
+        if np.abs(f).sum() < TOLERANCE:
             return a, steps
         change = np.linalg.solve(derivative, -f)
-        if np.abs(change).sum() < TOLA:
-            return a, steps + 1
         a = stored(a + change)
+        if np.abs(change).sum() < TOLERANCE:
+            return a, steps + 1
     return a, MOST_ITERATIONS
 
 
