@@ -26,8 +26,8 @@ class Chosen(NamedTuple):
 
 NODE, SETTINGS = 'nodes/resolver.py', 'nodes/resolver_settings.py'
 OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
-SUPERVISOR, SEARCH = 'resolving/search.py'
-STEP = 'resolving/supervisor.py', 'resolving/step.py'
+SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
+SEARCH = 'resolving/search.py'
 JOYSTICK = 'operating/joystick.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 RECEIPT, STAMP = 'self._seconds(self._receipt_clock)', 'self._seconds(self.get_clock())'
