@@ -207,7 +207,7 @@ class ForwardKinematics:
             return ColdStart.told(solution, ())
         found = self.assemblies(lengths)
         if solution.pose is None and found:
-            solution = min(found, key=lambda other: self._apart(other, self.home))
+            solution = min(found, key=self._from_home)
         pose = solution.pose
         if pose is None:
             return ColdStart.told(solution, ())
@@ -215,8 +215,8 @@ class ForwardKinematics:
         others = tuple(
             other
             for other in found
-            if self._apart(other, pose) > SAME_POSE * self.size
-            and other.pose is not None
+            if other.pose is not None
+            and self.apart(other.pose, pose) > SAME_POSE * self.size
             and self._hadamard_ratio(other.pose) * side > 0.0
         )
         return ColdStart.told(solution, others)
@@ -224,7 +224,12 @@ class ForwardKinematics:
     def _hadamard_ratio(self, pose: Pose) -> float:
         return hadamard_ratio_at(self.platform, self.base, self.size, pose)
 
-    def _apart(self, solution: Solution, pose: Pose) -> float:
+    def _from_home(self, solution: Solution) -> float:
         assert solution.pose is not None
-        one, other = (stages.unknowns(p, self.size) for p in (solution.pose, pose))
-        return self.size * math.dist(one, other)
+        return self.apart(solution.pose, self.home)
+
+    def apart(self, one: Pose, other: Pose) -> float:
+        """Return the distance of two poses, m, in which `Solution` states its proofs."""
+        return self.size * math.dist(
+            stages.unknowns(one, self.size), stages.unknowns(other, self.size)
+        )
