@@ -67,6 +67,8 @@ def test_beyond_lock_no_pose_counts_until_the_platform_is_home_again():
     first = statuses(back).index(Status.CONVERGED)
     off = [abs(length - WRIST.home[0]) for length in WRIST.assembly_at(yaw(126.0, 0.0)[first])]
     assert 0.9 * FAR < max(off) <= FAR
+    # In doubt, too, each answer is sought near the one before: only beside lock that takes long.
+    assert np.mean([observed.solution.iterations for observed in there + back]) < 20
 
 
 def test_short_of_lock_every_pose_counts():
@@ -78,7 +80,7 @@ def test_short_of_lock_every_pose_counts():
     st.floats(0.1, 1.0),
     st.floats(0.6, 1.2),
 )
-@settings(max_examples=6, deadline=None)
+@settings(max_examples=20, deadline=None)
 def test_after_lock_no_pose_that_counts_is_another_than_the_true_one(direction, share, way):
     """Any straight way, as long as the platform's own size or twice that, and back."""
     twist = direction * np.array([0.1 * share] * 3 + [1.0] * 3)
@@ -164,7 +166,7 @@ def test_a_start_away_from_home_has_no_pose_until_home():
     for count, pose in enumerate([beyond, yawed(54.0)]):
         observed = watched.take(NAMES, WRIST.assembly_at(pose), count)
         assert observed.solution.status == Status.UNPROVEN
-        assert 'No pose is known to start from' in observed.message
+        assert 'There is no pose to go on from' in observed.message
     assert watched.take(NAMES, WRIST.home, 2.0).solution.status == Status.CONVERGED
 
 
@@ -191,4 +193,6 @@ def test_without_a_jump_limit_long_steps_are_followed_and_lock_ends_them():
     assert set(statuses(there)) == {Status.CONVERGED}
     beyond = fly(watched, [yawed(degrees) for degrees in (89.5, 92.0, 126.0)], 1.0)
     assert statuses(beyond) == [Status.NEAR_SINGULAR, Status.UNPROVEN, Status.UNPROVEN]
+    assert 'near lock' in beyond[0].message
+    assert 'may have crossed a lock' in beyond[1].message
     assert watched.take(NAMES, WRIST.home, 2.0).solution.status == Status.CONVERGED

@@ -25,16 +25,13 @@ from wrist_control.wrists.stewart import FAR, Stewart
 HOMEWARDS = f'drive it home, until every leg is within {FAR:g} m of its length there.'
 MEANINGS = {
     Status.CONVERGED: 'The pose is proved to be the one that the pose before leads to.',
-    Status.UNPROVEN: 'A pose fits, but it is not proved to be the one that the pose before leads '
-    f'to; none is published: {HOMEWARDS}',
-    Status.DIVERGED: 'No pose was found, and none is published: check the leg readings, and '
-    f'{HOMEWARDS}',
+    Status.DIVERGED: f'No pose was found; check the leg readings, and {HOMEWARDS}',
     Status.NEAR_SINGULAR: 'The platform is near lock, and may be on either side of it; none is '
     f'published: {HOMEWARDS}',
 }
 AT_HOME = 'The pose is proved to be the one that home leads to.'
 NO_START = (
-    'No pose is known to start from: the lengths alone also fit other poses; none is published: '
+    'There is no pose to go on from, and the lengths alone may fit several; none is published: '
     f'{HOMEWARDS}'
 )
 
@@ -110,6 +107,7 @@ class Observer:
         self._wrist, self._settings = wrist, settings
         self._names = [joint.name for joint in wrist.joints]
         self._good: Good | None = None
+        self._near = wrist.home.pose
         self._doubt = NO_START
 
     def take(self, names: Sequence[str], positions: Sequence[float], stamp: float) -> Observed:
@@ -130,54 +128,51 @@ class Observer:
             none = Solution(None, Status.UNREACHABLE, 0, math.inf, 0.0)
             return Observed(none, None, None, str(error))
         good = self._before(lengths, stamp)
+        solution = self._wrist.forward_kinematics.solve(lengths, self._near)
         if good is not None:
-            observed = self._continued(good, lengths, stamp)
-            if observed is not None:
-                return observed
-        return self._begun(lengths, stamp)
-
-    def _continued(self, good: Good, lengths: tuple[float, ...], stamp: float) -> Observed | None:
-        """Return where the good pose leads; None where the platform may be elsewhere."""
-        solution = self._wrist.forward_kinematics.solve(lengths, good.pose)
-        if solution.pose is None or solution.status != Status.CONVERGED:
-            self._good, self._doubt = None, MEANINGS[solution.status]
-            return None
-        if not self._leads_only_to(solution, good, stamp - good.stamp):
+            if self._leads_only_to(solution, good, stamp - good.stamp):
+                return self._counting(solution, MEANINGS[Status.CONVERGED], lengths, stamp)
             self._good, self._doubt = None, _may_have_crossed(stamp - good.stamp)
-            return None
-        return self._counting(solution, MEANINGS[Status.CONVERGED], lengths, stamp)
+        if self._is_home(lengths):
+            at_home = self._wrist.forward_kinematics.solve(lengths)
+            if at_home.status == Status.CONVERGED:
+                return self._counting(at_home, AT_HOME, lengths, stamp)
+        return self._not_counting(solution)
 
     def _leads_only_to(self, solution: Solution, good: Good, dt: float) -> bool:
-        """Return whether the platform can have reached no other pose of the same lengths. (S13).
+        """Return whether a pose is proved to be where the platform is: (S13).
 
-        Every other is further than the unique radius from this one. The platform is no further
-        from the good pose than it moves in dt; where it is seen to move faster than the limit
-        says, than it was seen to move.
+        Every other of its lengths is further than the unique radius from this one. The platform
+        is no further from the good pose than it moves in dt; where it is seen to move faster than
+        the limit says, than it was seen to move.
         """
+        if solution.pose is None or solution.status != Status.CONVERGED:
+            return False
         if math.isinf(self._settings.jump_limit):
             return True
-        assert solution.pose is not None
         travel = self._wrist.forward_kinematics.apart(good.pose, solution.pose)
         reach = max(travel, self._settings.jump_limit * dt)
         return solution.unique_radius > travel + reach
 
-    def _begun(self, lengths: tuple[float, ...], stamp: float) -> Observed:
-        """Return what lengths say without a pose before: a pose at home, and none elsewhere."""
-        solution = self._wrist.forward_kinematics.solve(lengths)
-        if solution.status == Status.NEAR_SINGULAR:
-            return Observed(solution, None, None, MEANINGS[solution.status])
+    def _is_home(self, lengths: Sequence[float]) -> bool:
+        return all(abs(x - y) <= FAR for x, y in zip(lengths, self._wrist.home, strict=True))
+
+    def _not_counting(self, solution: Solution) -> Observed:
+        """Return an answer that is not proved.
+
+        The next is sought near it, or near home: whichever is found, its status alone counts.
+        """
+        self._near = self._wrist.home.pose if solution.pose is None else solution.pose
         if solution.status == Status.CONVERGED:
-            off = max(abs(x - y) for x, y in zip(lengths, self._wrist.home, strict=True))
-            if off <= FAR:
-                return self._counting(solution, AT_HOME, lengths, stamp)
             solution = solution._replace(status=Status.UNPROVEN)
-        return Observed(solution, None, None, self._doubt)
+        return Observed(solution, None, None, MEANINGS.get(solution.status, self._doubt))
 
     def _counting(
         self, solution: Solution, message: str, lengths: tuple[float, ...], stamp: float
     ) -> Observed:
         """Return a pose that counts, and go on from it."""
         assert solution.pose is not None
+        self._near = solution.pose
         self._good = Good(lengths, solution.pose, stamp)
         lines = self._wrist.assembly_at(solution.pose).lines
         noise = self._settings.length_noise
