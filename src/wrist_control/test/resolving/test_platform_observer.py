@@ -54,29 +54,6 @@ def test_a_refused_reading_changes_nothing():
     assert observer.take(NAMES, WRIST.home, 0.15).solution.status == Status.CONVERGED
 
 
-def test_a_search_in_vain_is_not_repeated_at_once(monkeypatch):
-    """It takes longer than the time between two readings."""
-    rng = np.random.default_rng(0)
-    fk = WRIST.forward_kinematics
-    while True:
-        lengths = tuple(WRIST.home[0] + rng.choice([-0.1, 0.1], 6))
-        if fk.cold_start(lengths).others:
-            break
-    searches = []
-    cold_start = type(fk).cold_start
-    monkeypatch.setattr(
-        type(fk),
-        'cold_start',
-        lambda self, given: searches.append(given) or cold_start(self, given),
-    )
-    observer = Observer(WRIST, CAREFUL)
-    for count in range(250):
-        observed = observer.take(NAMES, lengths, 0.01 * count)
-        assert observed.solution.status == Status.UNPROVEN
-        assert observed.covariance is None
-    assert len(searches) == 3
-
-
 def test_a_noise_for_half_of_the_legs_is_refused():
     with pytest.raises(InvalidValueError, match='length_noise has 3 values'):
         Observer(WRIST, ObserverSettings([1e-4] * 3, 0.5, 1.0))

@@ -28,9 +28,7 @@ def lengths_turned_by(degrees):
 @pytest.mark.parametrize(
     ('degrees', 'status'), [(89.0, Status.NEAR_SINGULAR), (90.0, Status.DIVERGED)]
 )
-def test_near_lock_it_says_so_at_once_and_while_the_search_is_not_made_again(
-    observer, degrees, status
-):
+def test_near_lock_it_says_so(observer, degrees, status):
     lengths = lengths_turned_by(degrees)
     for count in range(3):
         observed = observer.take(NAMES, lengths, 0.1 * count)
@@ -39,11 +37,11 @@ def test_near_lock_it_says_so_at_once_and_while_the_search_is_not_made_again(
 
 
 def test_once_found_the_pose_is_gone_on_from_and_the_sentence_says_so(observer):
-    first = observer.take(NAMES, lengths_turned_by(10.0), 0.0)
-    second = observer.take(NAMES, lengths_turned_by(11.0), 0.1)
+    first = observer.take(NAMES, lengths_turned_by(5.0), 0.0)
+    second = observer.take(NAMES, lengths_turned_by(6.0), 0.02)
     assert 'home' in first.message
     assert second.message == MEANINGS[Status.CONVERGED]
-    np.testing.assert_allclose(second.solution.pose.rotation[0, 1], math.sin(math.radians(11.0)))
+    np.testing.assert_allclose(second.solution.pose.rotation[0, 1], math.sin(math.radians(6.0)))
 
 
 def test_rates_as_fast_as_the_jump_limit_count_and_faster_ones_do_not(observer):
@@ -78,9 +76,10 @@ def test_a_length_at_its_limit_counts_and_one_beyond_does_not(side):
     assert refused.value.reason == 'outside its limits'
 
 
-def test_a_gap_as_long_as_the_limit_is_still_followed_and_a_longer_one_is_not(observer):
-    """After 1 s a leg may have moved by 0.5 m; after more nobody knows, and it starts again."""
+def test_a_gap_as_long_as_the_limit_is_still_followed_and_a_longer_one_is_not():
+    """Without a jump limit the gap alone says how long a straight way is believed."""
+    observer = Observer(WRIST, ObserverSettings([1e-4], math.inf, 1.0))
     observer.take(NAMES, WRIST.home, 0.0)
     moved = lengths_turned_by(10.0)
     assert observer.take(NAMES, moved, 1.0).message == MEANINGS[Status.CONVERGED]
-    assert 'home' in observer.take(NAMES, WRIST.home, 2.0 + 1e-6).message
+    assert observer.take(NAMES, moved, 2.0 + 1e-6).solution.status == Status.UNPROVEN

@@ -1,13 +1,17 @@
 """Many solves at once: the same answers, and what is refused."""
 
+import math
+
 import numpy as np
 import pytest
 
 from wrist_control import InvalidValueError
 from wrist_control.rotations import IDENTITY, Pose, Poses, quaternion_of, turned
+from wrist_control.stewart import quadratics, stages, tracking
+from wrist_control.stewart.batch import CHUNK, Roots, chunks, prove
 from wrist_control.stewart.forward_kinematics import Solutions, Status
 
-from .platforms import CROOKED, FK, WRIST, apart, lengths_of, random_poses
+from .platforms import CROOKED, FK, HOME, WRIST, apart, lengths_of, random_poses
 
 
 def many(n=300, shift=0.05, turn=0.3):
@@ -18,6 +22,33 @@ def many(n=300, shift=0.05, turn=0.3):
         np.array([p.position for p in found]) + rng.normal(scale=1e-3, size=(n, 3)),
     )
     return found, np.array([lengths_of(p) for p in found]), near
+
+
+@pytest.mark.parametrize('n', [0, 1, CHUNK - 1, CHUNK, 2 * CHUNK + 5])
+def test_chunks_hold_every_row_once_and_never_more_than_fit(n):
+    rows = [row for part in chunks(n) for row in range(n)[part]]
+    assert rows == list(range(n))
+    assert all(part.stop - part.start <= CHUNK for part in chunks(n))
+
+
+def test_a_proof_from_far_away_is_that_of_a_single_solve():
+    """Linearised 5 mm and 0.02 rad off, where β of (S7) has to be carried over by (S8)."""
+    known, size = FK.planar, WRIST.size
+    for pose, shift in zip(random_poses(20, 0.05, 0.3), random_poses(20, 5e-3, 0.02), strict=True):
+        moved = Pose(
+            turned(pose.quaternion, shift.quaternion[:0:-1], 2.0),
+            tuple(np.add(pose.position, shift.position) - HOME.position),
+        )
+        at, origin = (stages.unknowns(one, size) for one in (pose, moved))
+        inverse = quadratics.newton_inverse(known.per_t, origin)
+        single = tracking._proved(known, at, origin, 3, origin, inverse, 1e-9)
+        many = Roots(at, np.array([1e-9]), np.array([3]), origin, inverse)
+        error, unique, followed = prove(known, many, np.array([origin]).T)
+        assert error[0] == pytest.approx(single.proof.error, rel=1e-12, abs=0.0)
+        assert unique[0] == pytest.approx(single.proof.unique, rel=1e-12, abs=0.0)
+        assert followed[0] == single.followed
+        beta = quadratics.kantorovich_beta(known, origin, inverse)
+        assert 0.05 < 2.0 * beta * math.dist(at, origin) < 0.9
 
 
 @pytest.mark.parametrize('wrist', [WRIST, CROOKED], ids=['planar', 'crooked'])

@@ -39,14 +39,15 @@ SPECS = [
     Spec(
         'jump_limit',
         0.5,
-        'The fastest that a leg moves; readings further apart are refused; .inf for no limit',
+        'The fastest that a leg moves, and the platform; readings further apart are refused; '
+        '.inf for no limit',
         'm/s',
         1e-6,
     ),
     Spec(
         'gap_limit',
         1.0,
-        'After this long without a good pose the search from home starts again',
+        'After this long without a good pose the platform must be home again',
         's',
         0.001,
         3600.0,

@@ -20,20 +20,20 @@ from wrist_control.stewart.measurement import (
     platform_twist,
     pose_covariance,
 )
-from wrist_control.wrists.stewart import Stewart
+from wrist_control.wrists.stewart import FAR, Stewart
 
-# A search that was in vain is not made again sooner, s. It takes 30 to 150 ms, longer than a
-# reading may: so seldom, readings at 100 Hz keep up, and who moves a leg waits no longer.
-SEARCH_PERIOD = 1.0
+HOMEWARDS = f'drive it home, until every leg is within {FAR:g} m of its length there.'
 MEANINGS = {
     Status.CONVERGED: 'The pose is proved to be the one that the pose before leads to.',
-    Status.UNPROVEN: 'A pose fits, but it is not proved to be the one that the pose before leads '
-    'to; none is published: move the platform back.',
-    Status.UNREACHABLE: 'No pose fits these lengths; check the leg readings.',
-    Status.DIVERGED: 'No pose was found; the last good pose stands: check the leg readings.',
-    Status.NEAR_SINGULAR: 'The platform is near lock, and its pose is not sure; none is '
-    'published: move the platform back.',
+    Status.DIVERGED: f'No pose was found; check the leg readings, and {HOMEWARDS}',
+    Status.NEAR_SINGULAR: 'The platform is near lock, and may be on either side of it; none is '
+    f'published: {HOMEWARDS}',
 }
+AT_HOME = 'The pose is proved to be the one that home leads to.'
+NO_START = (
+    'There is no pose to go on from, and the lengths alone may fit several; none is published: '
+    f'{HOMEWARDS}'
+)
 
 
 class ObserverSettings(NamedTuple):
@@ -41,8 +41,10 @@ class ObserverSettings(NamedTuple):
 
     Attributes:
         length_noise: Standard deviation of each length reading, m, six or one for all.
-        jump_limit: The fastest that a leg moves, m/s; readings further apart are refused.
-        gap_limit: After this long without a good pose the search from home starts again, s.
+        jump_limit: The fastest that a leg moves, m/s; readings further apart are refused. No
+            faster, in the distance in which proofs are stated, moves the platform; where it is
+            inf, the legs go straight from one reading to the next.
+        gap_limit: After this long without a good pose the platform must be home again, s.
     """
 
     length_noise: Sequence[float]
@@ -78,9 +80,13 @@ class Good(NamedTuple):
 class Observer:
     """Follows one platform from reading to reading.
 
-    A pose counts only when it is proved to be the one that the pose before leads to. The first
-    pose is the one that home leads to, when a search finds no other that fits: which of several is
-    meant, lengths cannot say. That the platform is on home's side of lock is taken for granted.
+    Lengths alone fit several poses, on either side of lock. A pose counts only when the platform
+    is proved to be there and nowhere else: at home, or where the pose before leads to, if the
+    platform cannot have reached another pose since. Where it can, as near lock or after a gap,
+    no pose counts until the platform is home again.
+
+    Home is where every leg is within `FAR` of its length there. That is taken for granted: the
+    paper's home lengths fit three poses more, overturned by 93° and beyond lock.
     """
 
     def __init__(self, wrist: Stewart, settings: ObserverSettings) -> None:
@@ -101,8 +107,8 @@ class Observer:
         self._wrist, self._settings = wrist, settings
         self._names = [joint.name for joint in wrist.joints]
         self._good: Good | None = None
-        self._searched = -math.inf
-        self._found = ''
+        self._near = wrist.home.pose
+        self._doubt = NO_START
 
     def take(self, names: Sequence[str], positions: Sequence[float], stamp: float) -> Observed:
         """Return what a reading says of the pose; only a proved one is gone on from.
@@ -122,13 +128,51 @@ class Observer:
             none = Solution(None, Status.UNREACHABLE, 0, math.inf, 0.0)
             return Observed(none, None, None, str(error))
         good = self._before(lengths, stamp)
-        if good is None:
-            solution, message = self._first(lengths, stamp)
-        else:
-            solution = self._wrist.forward_kinematics.solve(lengths, good.pose)
-            message = MEANINGS[solution.status]
+        solution = self._wrist.forward_kinematics.solve(lengths, self._near)
+        if good is not None:
+            if self._leads_only_to(solution, good, stamp - good.stamp):
+                return self._counting(solution, MEANINGS[Status.CONVERGED], lengths, stamp)
+            self._good, self._doubt = None, _may_have_crossed(stamp - good.stamp)
+        if self._is_home(lengths):
+            at_home = self._wrist.forward_kinematics.solve(lengths)
+            if at_home.status == Status.CONVERGED:
+                return self._counting(at_home, AT_HOME, lengths, stamp)
+        return self._not_counting(solution)
+
+    def _leads_only_to(self, solution: Solution, good: Good, dt: float) -> bool:
+        """Return whether a pose is proved to be where the platform is: (S13).
+
+        Every other of its lengths is further than the unique radius from this one. The platform
+        is no further from the good pose than it moves in dt; where it is seen to move faster than
+        the limit says, than it was seen to move.
+        """
         if solution.pose is None or solution.status != Status.CONVERGED:
-            return Observed(solution, None, None, message)
+            return False
+        if math.isinf(self._settings.jump_limit):
+            return True
+        travel = self._wrist.forward_kinematics.apart(good.pose, solution.pose)
+        reach = max(travel, self._settings.jump_limit * dt)
+        return solution.unique_radius > travel + reach
+
+    def _is_home(self, lengths: Sequence[float]) -> bool:
+        return all(abs(x - y) <= FAR for x, y in zip(lengths, self._wrist.home, strict=True))
+
+    def _not_counting(self, solution: Solution) -> Observed:
+        """Return an answer that is not proved.
+
+        The next is sought near it, or near home: whichever is found, its status alone counts.
+        """
+        self._near = self._wrist.home.pose if solution.pose is None else solution.pose
+        if solution.status == Status.CONVERGED:
+            solution = solution._replace(status=Status.UNPROVEN)
+        return Observed(solution, None, None, MEANINGS.get(solution.status, self._doubt))
+
+    def _counting(
+        self, solution: Solution, message: str, lengths: tuple[float, ...], stamp: float
+    ) -> Observed:
+        """Return a pose that counts, and go on from it."""
+        assert solution.pose is not None
+        self._near = solution.pose
         self._good = Good(lengths, solution.pose, stamp)
         lines = self._wrist.assembly_at(solution.pose).lines
         noise = self._settings.length_noise
@@ -181,34 +225,27 @@ class Observer:
         A clock that goes back by more than the gap has been set again.
         """
         good = self._good
-        if good is None or abs(stamp - good.stamp) > self._settings.gap_limit:
+        if good is None:
             return None
-        if stamp < good.stamp:
+        dt, fastest = stamp - good.stamp, self._settings.jump_limit
+        if abs(dt) > self._settings.gap_limit:
+            self._good, self._doubt = None, _may_have_crossed(dt)
+            return None
+        if dt < 0.0:
             raise RefusedError(
                 'older than the last',
-                f'The reading is {good.stamp - stamp:.3f} s older than the last good one; send '
-                'them in the order of their stamps.',
+                f'The reading is {-dt:.3f} s older than the last good one; send them in the order '
+                'of their stamps.',
             )
-        dt, fastest = stamp - good.stamp, self._settings.jump_limit
         _refusing('jump', check_jump, lengths, good.lengths, dt, fastest)
         return good
 
-    def _first(self, lengths: Sequence[float], stamp: float) -> tuple[Solution, str]:
-        """Return the pose when there is none before: proved, and the only one that was found."""
-        if 0.0 <= stamp - self._searched < SEARCH_PERIOD:
-            solution = self._wrist.forward_kinematics.solve(lengths)
-            return self._unsure(solution), self._found
-        cold = self._wrist.forward_kinematics.cold_start(lengths)
-        if cold.solution.status == Status.CONVERGED and not cold.others:
-            return cold.solution, cold.message
-        self._searched, self._found = stamp, cold.message
-        return self._unsure(cold.solution), cold.message
 
-    @staticmethod
-    def _unsure(solution: Solution) -> Solution:
-        if solution.status == Status.CONVERGED:
-            return solution._replace(status=Status.UNPROVEN)
-        return solution
+def _may_have_crossed(dt: float) -> str:
+    return (
+        f'In the {abs(dt):.3g} s since the last proved pose the platform may have crossed a lock, '
+        f'and lengths cannot tell the side; none is published: {HOMEWARDS}'
+    )
 
 
 def _refusing(reason: str, check: Callable[..., Any], *values: Any) -> Any:

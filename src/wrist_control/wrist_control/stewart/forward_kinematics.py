@@ -168,36 +168,36 @@ class ForwardKinematics:
         found.status[part] = np.where(tracks.followed, status, Status.DIVERGED)
 
     def assemblies(self, lengths: Sequence[float]) -> tuple[Solution, ...]:
-        """Return the different poses above the base that a search finds for lengths.
+        """Return the different poses above the base that a search finds: there are at least these.
 
         Each one is proved to be a pose of its own; that there are no others is not. Their status
         is UNPROVEN: which of them is meant, lengths cannot say.
         """
         check_lengths(lengths)
-        starts = assembly.seeds(self.home)
-        many = np.tile(np.asarray(lengths, dtype=float), (len(starts.position), 1))
-        if self.planar is not None:
-            tracks = batch.solve_rows(self.planar, many, batch.unknowns_of(starts, self.size))
-            candidates = batch.tracks_of(tracks)
+        if self.planar is None:
+            tracks = self._searched(lengths, assembly.seeds(self.home))
         else:
-            goal = general.squares(self._any, lengths)
-            candidates = [
-                track
-                for row in range(len(many))
-                if (track := general.solve_general(self._any, goal, self._seed(starts, row)))
-            ]
-        different = assembly.different(candidates)
+            starts = assembly.planar_seeds()
+            many = np.broadcast_to(np.asarray(lengths, dtype=float), (starts.shape[1], 6))
+            low = assembly.seeds(self.home, assembly.LOW_HEIGHTS, assembly.OVERTURNED)
+            tracks = batch.tracks_of(batch.solve_rows(self.planar, many, starts))
+            tracks += self._searched(lengths, low)
         return tuple(
             self._solution(track._replace(followed=False))
-            for track in different
+            for track in assembly.different(tracks)
             if track.at[6] > 0.0
         )
 
-    def _seed(self, starts: Poses, row: int) -> stages.Unknowns:
-        return stages.unknowns(batch.pose_in_row(starts, row), self.size)
+    def _searched(self, lengths: Sequence[float], starts: Sequence[Pose]) -> list[Track]:
+        goal = general.squares(self._any, lengths)
+        tracks = (
+            general.solve_general(self._any, goal, stages.unknowns(start, self.size))
+            for start in starts
+        )
+        return [track for track in tracks if track is not None]
 
     def cold_start(self, lengths: Sequence[float]) -> ColdStart:
-        """Return the pose of lengths when there is no pose before, and whether others fit too.
+        """Return the pose of lengths when there is no pose before, and others that fit too.
 
         Raises:
             InvalidValueError: Not six finite lengths above 0.
@@ -207,7 +207,7 @@ class ForwardKinematics:
             return ColdStart.told(solution, ())
         found = self.assemblies(lengths)
         if solution.pose is None and found:
-            solution = min(found, key=lambda other: self._apart(other, self.home))
+            solution = min(found, key=self._from_home)
         pose = solution.pose
         if pose is None:
             return ColdStart.told(solution, ())
@@ -215,8 +215,8 @@ class ForwardKinematics:
         others = tuple(
             other
             for other in found
-            if self._apart(other, pose) > SAME_POSE * self.size
-            and other.pose is not None
+            if other.pose is not None
+            and self.apart(other.pose, pose) > SAME_POSE * self.size
             and self._hadamard_ratio(other.pose) * side > 0.0
         )
         return ColdStart.told(solution, others)
@@ -224,7 +224,12 @@ class ForwardKinematics:
     def _hadamard_ratio(self, pose: Pose) -> float:
         return hadamard_ratio_at(self.platform, self.base, self.size, pose)
 
-    def _apart(self, solution: Solution, pose: Pose) -> float:
+    def _from_home(self, solution: Solution) -> float:
         assert solution.pose is not None
-        one, other = (stages.unknowns(p, self.size) for p in (solution.pose, pose))
-        return self.size * math.dist(one, other)
+        return self.apart(solution.pose, self.home)
+
+    def apart(self, one: Pose, other: Pose) -> float:
+        """Return the distance of two poses, m, in which `Solution` states its proofs."""
+        return self.size * math.dist(
+            stages.unknowns(one, self.size), stages.unknowns(other, self.size)
+        )

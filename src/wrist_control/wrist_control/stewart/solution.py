@@ -97,7 +97,8 @@ class ColdStart(NamedTuple):
     Attributes:
         solution: The pose that home leads to; the nearest of those found where it leads to none.
         others: Other poses that fit the lengths, above the base and on the same side of lock. A
-            search found them: there may be more.
+            search found them: there are at least so many, and none found does not prove that the
+            pose is the only one.
         message: One sentence for the operator.
     """
 
@@ -119,8 +120,9 @@ class ColdStart(NamedTuple):
         else:
             known = 'A pose fits, but home does not lead to it'
         fits = (
-            f'the lengths alone also fit {len(others)} other pose(s): drive home to be sure.'
+            f'the lengths alone also fit at least {len(others)} other pose(s): drive home to be '
+            'sure.'
             if others
-            else 'a search found no other.'
+            else 'a search found no other on its side of lock, but there may be one.'
         )
         return ColdStart(solution, others, f'{known}; {fits}')

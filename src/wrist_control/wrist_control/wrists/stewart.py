@@ -37,9 +37,10 @@ EDGE = 0.01
 # the hand would stop ten times as hard, and over ten times as much it would brake harder too, all
 # at once, since the braking begins where the margin falls fastest.
 HORIZON = 0.5
-# Lengths this much further on than a pose belong to it only if they fit no other, m. It is what a
-# fast leg (0.5 m/s) moves in four readings at 100 Hz: no leg that is followed waits for the slow
-# search, and lengths that mislead lie further from home.
+# Lengths this much further on than a pose belong to it only if a search finds no other that they
+# fit, and lengths this close to home's belong to home, m. It is what a fast leg (0.5 m/s) moves in
+# four readings at 100 Hz: no leg that is followed waits for the slow search, and lengths that
+# mislead on home's side of lock lie further from home.
 FAR = 0.02
 
 Points = Sequence[Sequence[float]] | Sequence[float]
@@ -227,7 +228,7 @@ class Stewart(Wrist):
 
         Raises:
             UnreachableError: No pose could be proved to be the one that `near` leads to; or the
-                lengths are far from there, and fit another pose as well.
+                lengths are far from there, and are found to fit another pose as well.
         """
         pose = self._proved(positions, near, 'the pose before')
         travel = max(abs(x - y) for x, y in zip(positions, self.assembly_at(near), strict=True))
