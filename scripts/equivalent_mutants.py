@@ -45,12 +45,38 @@ EQUIVALENT = (
         )
         for after in ('(10.0)', '(0.1)', '(2.0)', '(0.0)', '(-1.0)')
     ),
+    *(
+        Equivalent('stewart/batch.py', line, before, after, 'a distance is the same both ways')
+        for line, before, after in (
+            (
+                'followed = (np.abs(start[6]) > LOW) & (bound * (_distance(start, at) + error) '
+                '<= BRANCH_LIMIT)',
+                '_distance(start, at)',
+                '(_distance(at, start))',
+            ),
+            (
+                'for a, b in zip(one, other, strict=True):',
+                'zip(one, other, strict=True)',
+                '(zip(other, one, strict=True))',
+            ),
+        )
+    ),
+    *(
+        Equivalent(
+            'stewart/forward_kinematics.py',
+            'CLEARLY_HIGH = 2.0 * tracking.LOW',
+            before,
+            after,
+            'higher costs time alone',
+        )
+        for before, after in (('2.0 * tracking.LOW', '(2.0 / tracking.LOW)'), ('2.0', '(10.0)'))
+    ),
     Equivalent(
-        'resolving/platform_observer.py',
-        'self._searched = -math.inf',
-        '-math.inf',
-        '(math.inf)',
-        'either way no search lies less than a second back',
+        'stewart/forward_kinematics.py',
+        'and self._hadamard_ratio(other.pose) * side > 0.0',
+        'self._hadamard_ratio(other.pose) * side',
+        '(self._hadamard_ratio(other.pose) / side)',
+        'the sign of a quotient is that of the product',
     ),
     *(
         Equivalent(
