@@ -1,0 +1,49 @@
+"""Newton's matrix against differences of the residual, on platforms with nothing symmetric."""
+
+import numpy as np
+import pytest
+
+from wrist_control import make_wrist
+from wrist_control.stewart import quadratics, stages
+from wrist_control.stewart.forward_kinematics import ForwardKinematics, Status
+
+from .platforms import FK, SCATTERED, WRIST, lengths_of, random_poses
+
+STEP = 1e-6
+UNKNOWNS = [2, 4, 5]  # u1, u2, v2 among the nine
+
+
+@pytest.mark.parametrize('wrist', [WRIST, SCATTERED], ids=['rings', 'scattered'])
+def test_newtons_matrix_is_the_derivative_of_the_residual(wrist):
+    known, size = wrist.forward_kinematics.planar, wrist.size
+    for pose in random_poses(10, 0.05, 0.4):
+        at = stages.unknowns(pose, size)
+        right = quadratics.right_side_at(known, at)
+
+        def residual(t, right=right):
+            found = quadratics.unknowns_and_residual(right, known.per_t, *t, 1.0)
+            return np.array(found[1:])
+
+        there = np.array(at)[UNKNOWNS]
+        columns = [
+            (residual(there + STEP * step) - residual(there - STEP * step)) / (2.0 * STEP)
+            for step in np.eye(3)
+        ]
+        # The entries on the diagonal of E stand halved.
+        slope = np.array(columns).T * np.array([[0.5], [1.0], [0.5]])
+        matrix = quadratics.newton_matrix(known.per_t, at)
+        np.testing.assert_allclose(matrix, slope, atol=1e-7)
+
+
+def test_poses_near_home_need_no_solve_of_their_own(monkeypatch):
+    found = random_poses(50, 0.01, 0.03)
+    lengths = np.array([lengths_of(pose) for pose in found])
+    monkeypatch.setattr(ForwardKinematics, 'solve', None)
+    solutions = FK.solve_batch(lengths)
+    assert (solutions.status == Status.CONVERGED).all()
+    np.testing.assert_allclose(solutions.position, [p.position for p in found], atol=1e-9)
+
+
+def test_the_scattered_platform_is_planar_and_not_a_ring():
+    assert SCATTERED.forward_kinematics.planar is not None
+    assert make_wrist('stewart').platform != SCATTERED.platform
