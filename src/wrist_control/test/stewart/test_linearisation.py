@@ -36,7 +36,7 @@ def test_newtons_matrix_is_the_derivative_of_the_residual(wrist):
 
 
 def test_poses_near_home_need_no_solve_of_their_own(monkeypatch):
-    found = random_poses(50, 0.01, 0.03)
+    found = random_poses(50, 0.002, 0.005)
     lengths = np.array([lengths_of(pose) for pose in found])
     monkeypatch.setattr(ForwardKinematics, 'solve', None)
     solutions = FK.solve_batch(lengths)
