@@ -27,7 +27,7 @@ class Chosen(NamedTuple):
 NODE, SETTINGS = 'nodes/resolver.py', 'nodes/resolver_settings.py'
 OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
 SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
-SEARCH = 'resolving/search.py'
+SEARCH, FEEDBACK = 'resolving/search.py', 'resolving/feedback.py'
 JOYSTICK = 'operating/joystick.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 RECEIPT, STAMP = 'self._seconds(self._receipt_clock)', 'self._seconds(self.get_clock())'
@@ -86,34 +86,71 @@ CHOSEN = tuple(
         (OUTPUTS, '= result.moving_allowed\n', '= True\n', 'sends while it is disabled'),
         (OUTPUTS, 'if result.moving_allowed:', 'if True:', 'sends while it is disabled'),
         # Who is in charge.
-        (SUPERVISOR, '            self._moved = False\n', '', 'after a pause it jumps back'),
         (
             SUPERVISOR,
-            '            self._lagging_since = None\n            self._moved',
-            '            self._moved',
-            'a fault as soon as it is enabled',
+            'FOLLOWING) and not self._adopted:',
+            'FOLLOWING):',
+            'what a servo settles at is taken over again and again: it creeps',
         ),
+        (SUPERVISOR, 'feedback.forget_lag()', 'pass', 'a fault as soon as it is enabled'),
         (
             SUPERVISOR,
-            '            self._commands.clear()\n            self._lagging',
-            '            self._lagging',
+            'Mode.FOLLOWING\n        self._commands.clear()\n        feedback',
+            'Mode.FOLLOWING\n        feedback',
             'an old command moves the hand as soon as it is enabled',
         ),
+        (
+            SUPERVISOR,
+            'if feedback.age(receipt_time) > self.settings.feedback_timeout:',
+            'if False:',
+            'it is enabled from where the joints were long ago',
+        ),
+        (
+            SUPERVISOR,
+            'if not feedback.resting:',
+            'if False:',
+            'it is enabled from joints that move',
+        ),
+        (
+            SUPERVISOR,
+            'if self._moving and self._deaf(receipt_time):',
+            'if False:',
+            'the hand moves unseen',
+        ),
+        (
+            SUPERVISOR,
+            'Mode.WAITING if settings.require_joint_states else',
+            '',
+            'home is commanded before the joints were heard',
+        ),
+        (FEEDBACK, 'RESTING_MESSAGES = 3', 'RESTING_MESSAGES = 1', 'one message is believed'),
+        (FEEDBACK, "'revolute': 0.005", "'revolute': 0.05", 'joints that move are taken over'),
+        (FEEDBACK, "SAG = {'revolute': 0.02", "SAG = {'revolute': 0.2", 'a start far outside'),
+        (FEEDBACK, 'FURTHEST = 1e4', 'FURTHEST = 1e400', 'an absurd place is commanded'),
         (
             SUPERVISOR,
             'self.mode = Mode.FOLLOWING\n            self._commands.clear()\n',
             'self.mode = Mode.FOLLOWING\n',
             'an old command moves the hand after a reset',
         ),
-        (SUPERVISOR, '        self._moved = True\n', '', 'a reset jumps to what is measured'),
-        (SUPERVISOR, "'revolute': 0.35", "'revolute': 3.5", 'a joint that is stuck is not seen'),
-        (SUPERVISOR, "'prismatic': 0.02", "'prismatic': 0.2", 'a leg that is stuck is not seen'),
-        (SUPERVISOR, 'LAG_TIME = 0.5', 'LAG_TIME = 5.0', 'a joint that is stuck is seen late'),
+        (
+            SUPERVISOR,
+            'self._adopted, self._commanded = True, ZERO_TWIST',
+            'self._commanded = ZERO_TWIST',
+            'a reset jumps to what is measured',
+        ),
+        (
+            SETTINGS,
+            "BEHIND = {'revolute': 0.1",
+            "BEHIND = {'revolute': 1.0",
+            'stuck, and not seen',
+        ),
+        (SETTINGS, "'tracking_time', 0.25", "'tracking_time', 2.5", 'a stuck joint is seen late'),
         ('resolving/homing.py', "'revolute': 0.5", "'revolute': 5.0", 'a reset is a blow'),
         ('resolving/homing.py', "'prismatic': 0.02", "'prismatic': 0.2", 'a reset is a blow'),
         ('resolving/homing.py', '< 1e-9', '< 1e-3', 'a reset ends beside its goal'),
         # The operator.
-        (OPERATOR, ">= self._values['listeners']", '>= 1', 'a maneuver begins without the joints'),
+        (OPERATOR, "< self._values['listeners']", '< 1', 'a maneuver begins without the joints'),
         (OPERATOR, 'and not self._is_heard()', 'and False', 'a maneuver begins unheard'),
         (
             JOYSTICK,

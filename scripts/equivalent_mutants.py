@@ -61,6 +61,13 @@ EQUIVALENT = (
             ),
         )
     ),
+    Equivalent(
+        'stewart/batch.py',
+        'break',
+        'break',
+        'pass',
+        'further steps where every row has ended cost time alone',
+    ),
     *(
         Equivalent(
             'stewart/forward_kinematics.py',

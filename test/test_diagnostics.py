@@ -202,7 +202,7 @@ def test_a_joint_simulator_says_whom_it_waits_for_and_where_its_joints_are(graph
     graph.start(JointSimulator)
     told = Told(graph)
     state = told.next()['state']
-    waits = 'Waiting for the first joint_command to learn the joints.'
+    waits = 'Waiting for initial_joints or joint_command to learn the joints.'
     assert (state.name, state.level, state.message) == ('joint_simulator: state', OK, waits)
     graph.publisher(JointState, 'joint_command').publish(
         JointState(name=NAMES, position=[0.1, 0.2, 0.3])

@@ -16,6 +16,7 @@ MIRRORED = ('operating', 'resolving', 'stewart', 'wrists')
 # Steps of one computation: a test of each would only tell how it is divided. What they make is
 # tested in test_forward_kinematics, and where they are certain in test_certificate.
 PARTS = {
+    'resolving': {'period'},
     'stewart': {
         'assembly',
         'batch',

@@ -17,7 +17,7 @@ PITCH, YAW, ROLL = [0.02, 0.0, 0.0], [0.0, 0.3, 0.0], [0.0, 0.0, 0.3]
 
 @pytest.fixture
 def flown(graph):
-    """A pointer pitched to 90°, within the thousandth that is lock, and asked for other rates after that."""
+    """A pointer pitched to 90°, within the thousandth that is lock, then asked for other rates."""
     clock = graph.lockstep(1.0 / RATE)
     common = {'use_sim_time': True, 'rate': RATE}
     begin = [0.5 * math.pi - 0.01, 0.3]

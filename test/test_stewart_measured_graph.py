@@ -128,7 +128,7 @@ def test_a_start_elsewhere_is_taken_over_from_the_measured_legs(graph):
     graph.start(JointSimulator, joints=LEGS, initial_positions=lengths)
     states = graph.listen(JointState, 'joint_states')
     graph.until(lambda: states)
-    graph.start(Resolver, 'stewart')
+    graph.start(Resolver, 'stewart', require_joint_states=True)
     poses = graph.listen(PoseStamped, 'hand_pose')
     commands = graph.listen(JointState, 'joint_command')
     graph.until(

@@ -104,9 +104,17 @@ class Clocked:
     initial = (0.1, 0.2, 0.3)
     dt = 0.01
 
-    def __init__(self, wrist=None, initial=initial, timeout=0.25):
+    def __init__(self, wrist=None, initial=initial, **settings):
         wrist = wrist or GIMBALS.with_limits(rates=0.5, lower=-2.0, upper=2.0)
-        self.supervisor = Supervisor(wrist, SupervisorSettings(self.dt, timeout, 0.1, initial))
+        chosen = SupervisorSettings(
+            dt=self.dt,
+            command_timeout=0.25,
+            stop_time=0.1,
+            initial_positions=initial,
+            tracking_tolerance=(0.1,) * len(wrist.joints),
+            require_joint_states=False,
+        )
+        self.supervisor = Supervisor(wrist, chosen._replace(**settings))
         self.count = 0
 
     @property
@@ -122,6 +130,15 @@ class Clocked:
 
     def measure(self, positions, names=('psi', 'theta', 'phi')):
         self.supervisor.take_measured(names, positions, self.now)
+
+    def rest(self, positions, names=('psi', 'theta', 'phi')):
+        """Measure joints that rest: three times the same, a period apart."""
+        for _ in range(3):
+            self.tick()
+            self.measure(positions, names)
+
+    def enable(self, wanted):
+        return self.supervisor.enable(wanted, receipt_time=self.now)
 
     def tick(self):
         self.count += 1

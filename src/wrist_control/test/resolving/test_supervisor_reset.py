@@ -1,6 +1,7 @@
 """A supervisor on its way home: at the rate limits, and nobody else in charge."""
 
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -60,8 +61,8 @@ def test_a_reset_at_home_is_done_at_once(wrist):
 
 
 def test_a_reset_needs_somebody_who_may_move(wrist):
-    wrist.supervisor.enable(False)
-    with pytest.raises(InvalidValueError, match=r'Cannot reset: nobody: disabled .* ~/enable'):
+    wrist.enable(False)
+    with pytest.raises(InvalidValueError, match=r'Cannot reset: nobody: disabled .* enable first'):
         wrist.supervisor.reset()
     assert wrist.supervisor.mode is Mode.DISABLED
 
@@ -70,10 +71,17 @@ def test_a_reset_can_be_broken_off_by_disabling(wrist):
     wrist.ticks(0.5, PITCH)
     wrist.supervisor.reset()
     wrist.ticks(0.1)
-    wrist.supervisor.enable(False)
+    wrist.enable(False)
     before = wrist.positions
+    ramp = wrist.ticks(0.2)
+    rates = [max(map(abs, outcome.step.joint_rates)) for outcome in ramp]
+    assert all(one >= other for one, other in pairwise(rates))
+    assert max(rates[0], -min(np.diff(rates))) < 0.5
+    assert rates[-1] == 0.0
+    stopped = wrist.positions
+    assert np.abs(np.subtract(stopped, before)).max() < 0.5 * 0.1
     wrist.ticks(0.5)
-    assert wrist.positions == before != wrist.initial
+    assert wrist.positions == stopped != wrist.initial
 
 
 def test_a_reset_to_where_new_limits_forbid_to_be_is_refused(wrist):
@@ -89,7 +97,7 @@ def test_a_reset_that_the_mechanism_cannot_make_is_a_fault_and_not_a_crash(clock
         gap = (0.4, 0.6)
 
     wrist = clocked(Gapped(), (0.0,))
-    wrist.measure((1.0,), ('phi',))
+    wrist.rest((1.0,), ('phi',))
     wrist.supervisor.reset()
     states = [one.wrist_state for one in wrist.ticks(2.0)]
     assert states[-1] == WristState.FAULT

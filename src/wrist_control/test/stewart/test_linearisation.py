@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from wrist_control import make_wrist
+from wrist_control.rotations import Pose, unit
 from wrist_control.stewart import quadratics, stages
 from wrist_control.stewart.forward_kinematics import ForwardKinematics, Status
 
-from .platforms import FK, SCATTERED, WRIST, lengths_of, random_poses
+from .platforms import FK, HOME, SCATTERED, WRIST, lengths_of, random_poses
 
 STEP = 1e-6
 UNKNOWNS = [2, 4, 5]  # u1, u2, v2 among the nine
@@ -41,7 +42,20 @@ def test_poses_near_home_need_no_solve_of_their_own(monkeypatch):
     monkeypatch.setattr(ForwardKinematics, 'solve', None)
     solutions = FK.solve_batch(lengths)
     assert (solutions.status == Status.CONVERGED).all()
+    assert (solutions.iterations > 0).all()
     np.testing.assert_allclose(solutions.position, [p.position for p in found], atol=1e-9)
+
+
+def test_where_home_leads_nowhere_a_cold_start_takes_the_pose_nearest_to_home():
+    """Lengths of a pose tilted far over: two poses are found, and a lock lies before both."""
+    far = Pose((0.5977, 0.5054, 0.3642, -0.5046), (-0.079, -0.070, 0.341))
+    lengths = lengths_of(far._replace(quaternion=unit(far.quaternion)))
+    assert FK.solve(lengths).pose is None
+    away = [FK.apart(solution.pose, HOME) for solution in FK.assemblies(lengths)]
+    assert len(away) > 1
+    chosen = FK.cold_start(lengths).solution.pose
+    assert FK.apart(chosen, HOME) == pytest.approx(min(away))
+    assert max(away) - min(away) > 1e-3
 
 
 def test_the_scattered_platform_is_planar_and_not_a_ring():

@@ -14,7 +14,9 @@ from wrist_control.rotations import Pose
 
 WRIST = make_wrist('stewart')
 NAMES = [joint.name for joint in WRIST.joints]
-SETTINGS = SupervisorSettings(0.01, 0.25, 0.1, tuple(WRIST.home))
+SETTINGS = SupervisorSettings(
+    0.01, 0.25, 0.1, tuple(WRIST.home), (0.005,) * 6, require_joint_states=False
+)
 
 
 # Commands of 1.2 s each that lead, without stroke limits, to where lengths mislead.
@@ -106,6 +108,8 @@ def test_the_way_home_is_not_followed_into_lock():
 
 def test_a_first_reading_that_fits_several_poses_is_a_fault_and_not_a_jump():
     supervisor = Supervisor(WRIST, SETTINGS)
+    for _ in range(2):
+        supervisor.take_measured(NAMES, tuple(MISLED[0].positions), 0.0)
     with pytest.raises(UnreachableError):
         supervisor.take_measured(NAMES, tuple(MISLED[0].positions), 0.0)
     assert supervisor.mode is Mode.FAULT
@@ -114,9 +118,10 @@ def test_a_first_reading_that_fits_several_poses_is_a_fault_and_not_a_jump():
 
 def test_a_reading_that_cannot_be_after_a_good_one_changes_nothing():
     supervisor = Supervisor(WRIST, SETTINGS)
-    supervisor.take_measured(NAMES, tuple(WRIST.home), 0.0)
+    for _ in range(3):
+        supervisor.take_measured(NAMES, tuple(WRIST.home), 0.0)
     before = supervisor.state
-    with pytest.raises(UnreachableError):
+    for _ in range(3):
         supervisor.take_measured(NAMES, tuple(MISLED[0].positions), 0.0)
     with pytest.raises(RefusedError):
         supervisor.take_measured(NAMES, (math.nan,) * 6, 0.0)
@@ -127,5 +132,6 @@ def test_a_reading_that_cannot_be_after_a_good_one_changes_nothing():
 def test_a_measured_start_is_adopted_with_its_pose():
     pose = Pose(WRIST.home.pose.quaternion, (0.01, -0.02, 0.45))
     supervisor = Supervisor(WRIST, SETTINGS)
-    supervisor.take_measured(NAMES, tuple(WRIST.assembly_at(pose)), 0.0)
+    for _ in range(3):
+        supervisor.take_measured(NAMES, tuple(WRIST.assembly_at(pose)), 0.0)
     assert supervisor.state.pose.position == pytest.approx(pose.position, abs=1e-12)

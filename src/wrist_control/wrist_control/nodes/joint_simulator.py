@@ -17,18 +17,20 @@ from wrist_control.resolving.simulated_joint import follow
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
 from wrist_control.ros.parameters import Spec, declare
-from wrist_control.ros.qos import EVERY, OUTPUT
+from wrist_control.ros.qos import EVERY, LASTING, OUTPUT
 from wrist_control.ros.running import run
 from wrist_control.wrists.joint import Joint, broadcast_to_joints
 
 EACH = 'one for each joint, or one for all'
 SPECS = [
     Spec('rate', 100.0, 'Joint states per second, from the node clock', 'Hz', 1.0, 2000.0),
-    Spec('joints', [], 'Joint names; taken from the first joint_command when empty', 'names'),
+    Spec(
+        'joints', [], 'Joint names; taken from initial_joints or joint_command when empty', 'names'
+    ),
     Spec(
         'initial_positions',
         [],
-        f'Where the joints start, {EACH}; as first commanded when empty',
+        f'Where the joints start, {EACH}; as first heard when empty',
         'rad or m',
     ),
     Spec(
@@ -65,6 +67,7 @@ class JointSimulator(Node):
         self._diagnostics = Diagnostics(self, self._health)
         self._publisher = self.create_publisher(JointState, 'joint_states', OUTPUT)
         self.create_subscription(JointState, 'joint_command', self._on_command, EVERY)
+        self.create_subscription(JointState, 'initial_joints', self._on_initial_joints, LASTING)
         self.create_timer(1.0 / self._values['rate'], self._tick)
 
     def _begin(self, names: list[str], commanded: list[float] | None) -> None:
@@ -103,6 +106,15 @@ class JointSimulator(Node):
         else:
             self._commands.put(convert.seconds(message.header.stamp), wanted)
 
+    def _on_initial_joints(self, message: JointState) -> None:
+        """Learn the joints of a resolver that waits for them before it commands anything."""
+        if self._joints:
+            return
+        try:
+            self._wanted(list(message.name), list(message.position))
+        except (RefusedError, InvalidValueError) as error:
+            self._diagnostics.refuse('initial_joints', RefusedError('unusable', str(error)))
+
     def _wanted(self, names: list[str], positions: list[float]) -> list[float]:
         known = [joint.name for joint in self._joints] or names
         wanted = list(in_joint_order(known, names, positions))
@@ -129,7 +141,7 @@ class JointSimulator(Node):
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
         if not self._joints:
-            return OK, 'Waiting for the first joint_command to learn the joints.', {}
+            return OK, 'Waiting for initial_joints or joint_command to learn the joints.', {}
         values = {
             joint.name: f'{position:.6f}'
             for joint, position in zip(self._joints, self._positions, strict=True)

@@ -84,6 +84,7 @@ class Operator(Node):
         self._pilot: Pilot | None = None
         self._joystick: JoystickWithTimeout | None = None
         self._times_lost: LatestMessage[float] = LatestMessage()
+        self._wrist_is_up = False
         watch(self, SPECS, self._check, self._values.update)
         self._diagnostics = Diagnostics(self, self._health)
         self._publisher = self.create_publisher(TwistStamped, 'cmd_vel', OUTPUT)
@@ -113,6 +114,7 @@ class Operator(Node):
                 )
 
     def _on_status(self, message: WristStatus) -> None:
+        self._wrist_is_up = message.state != WristStatus.WAITING
         if math.isfinite(message.time_lost):
             self._times_lost.put(convert.seconds(message.header.stamp), message.time_lost)
 
@@ -148,7 +150,10 @@ class Operator(Node):
         return rates
 
     def _is_heard(self) -> bool:
-        return bool(self._publisher.get_subscription_count() >= self._values['listeners'])
+        if self._publisher.get_subscription_count() < self._values['listeners']:
+            return False
+        # A wrist that waits for its joints would miss the beginning.
+        return self._wrist_is_up or not self.count_publishers('wrist_status')
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
         if self._joystick is not None:

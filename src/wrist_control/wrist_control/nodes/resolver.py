@@ -33,6 +33,7 @@ LEVELS = {
     WristState.SINGULAR: WARN,
     WristState.STALE: WARN,
     WristState.FAULT: ERROR,
+    WristState.WAITING: WARN,
 }
 TYPES = {
     'cmd_vel': 'geometry_msgs/msg/TwistStamped',
@@ -117,7 +118,10 @@ class Resolver(Node):
             self._diagnostics.refuse('joint_states', refused)
 
     def _on_enable(self, request: SetBool.Request, answer: SetBool.Response) -> Any:
-        return self._answer(answer, partial(self._supervisor.enable, request.data))
+        now = self._seconds(self._receipt_clock)
+        return self._answer(
+            answer, partial(self._supervisor.enable, request.data, receipt_time=now)
+        )
 
     def _on_reset(self, _: Trigger.Request, answer: Trigger.Response) -> Any:
         return self._answer(answer, self._supervisor.reset)
@@ -141,7 +145,8 @@ class Resolver(Node):
         self._outputs.publish(self._result, now.to_msg())
 
     def _check(self, changed: dict[str, Any]) -> None:
-        limited(self._supervisor.wrist, {**self._values, **changed})
+        values = {**self._values, **changed}
+        settings(limited(self._supervisor.wrist, values), values)
 
     def _apply(self, changed: dict[str, Any]) -> None:
         self._values.update(changed)
@@ -157,6 +162,8 @@ class Resolver(Node):
             'margin': f'{result.step.margin:.4f}',
         }
         level = LEVELS.get(result.wrist_state, OK)
+        if result.wrist_state == WristState.WAITING:
+            self.get_logger().warning(result.message, throttle_duration_sec=10.0)
         for (publisher, topic), sentence in self._wrong_types.found.items():
             values[f'{publisher} on {topic}'] = sentence
             level = max(level, WARN)

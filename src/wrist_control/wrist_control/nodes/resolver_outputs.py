@@ -16,7 +16,7 @@ from visualization_msgs.msg import MarkerArray
 from wrist_control.resolving.supervisor import PeriodResult
 from wrist_control.ros import convert
 from wrist_control.ros.markers import wrist_markers
-from wrist_control.ros.qos import OUTPUT
+from wrist_control.ros.qos import LASTING, OUTPUT
 from wrist_control.wrists import Wrist
 from wrist_interfaces.msg import LimitAtWork, WristStatus
 
@@ -46,6 +46,12 @@ class Outputs:
         self._pose = node.create_publisher(PoseStamped, 'hand_pose', OUTPUT)
         self._status = node.create_publisher(WristStatus, 'wrist_status', OUTPUT)
         self._markers = node.create_publisher(MarkerArray, 'markers', OUTPUT)
+        # Not a command: joints that are simulated learn from it which they are, and where.
+        self._initial = node.create_publisher(JointState, 'initial_joints', LASTING)
+        start = values['initial_positions'] or wrist.home
+        self._initial.publish(
+            convert.joint_message(Header(), self._names, start, [0.0] * len(self._names))
+        )
 
     def publish(self, result: PeriodResult, stamp: Time) -> None:
         """Publish what one step did."""

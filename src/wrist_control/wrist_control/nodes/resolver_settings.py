@@ -9,9 +9,12 @@ from typing import Any
 from wrist_control.resolving.supervisor import SupervisorSettings
 from wrist_control.ros.parameters import Spec
 from wrist_control.wrists import Wrist, wrist_class
+from wrist_control.wrists.joint import broadcast_to_joints
 
 # What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.
 CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
+# How far a joint may be behind its command, rad and m.
+BEHIND = {'revolute': 0.1, 'prismatic': 0.005}
 
 
 def mechanism_specs(wrist_name: str) -> list[Spec]:
@@ -86,6 +89,29 @@ def specs(wrist_name: str) -> list[Spec]:
             f"Where the joints start, one for each of {order}; the wrist's home when empty",
             unit,
         ),
+        Spec(
+            'require_joint_states',
+            True,
+            'Nothing is commanded before the joints were heard on joint_states',
+        ),
+        Spec(
+            'feedback_timeout',
+            0.25,
+            'Age of the joint states after which a moving hand is ramped to a stop: FAULT',
+            's',
+            0.01,
+            10.0,
+            live=True,
+        ),
+        Spec(
+            'tracking_tolerance',
+            [BEHIND[joint.kind] for joint in joints],
+            f'How far a joint may be behind its command, {each}',
+            unit,
+            0.0,
+            live=True,
+        ),
+        Spec('tracking_time', 0.25, 'How long it may be, then FAULT', 's', 0.0, 10.0, live=True),
         Spec('forearm_frame', 'forearm', 'Name of the frame that the wrist stands on'),
         Spec('hand_frame', 'hand', 'Name of the frame that turns'),
         Spec('joint_prefix', '', 'Put before every joint name'),
@@ -112,4 +138,14 @@ def settings(wrist: Wrist, values: Mapping[str, Any]) -> SupervisorSettings:
         command_timeout=values['command_timeout'],
         stop_time=values['stop_time'],
         initial_positions=tuple(values['initial_positions']) or wrist.home,
+        tracking_tolerance=tuple(
+            broadcast_to_joints(
+                'tracking_tolerance',
+                values['tracking_tolerance'],
+                [joint.name for joint in wrist.joints],
+            )
+        ),
+        tracking_time=values['tracking_time'],
+        require_joint_states=values['require_joint_states'],
+        feedback_timeout=values['feedback_timeout'],
     )

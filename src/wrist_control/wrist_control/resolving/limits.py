@@ -24,6 +24,7 @@ class LimitKind(IntEnum):
     POSITION = 1
     WORKSPACE = 2
     SINGULARITY = 3
+    ACCELERATION = 4
 
 
 class LimitAtWork(NamedTuple):

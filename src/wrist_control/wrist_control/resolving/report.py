@@ -24,6 +24,7 @@ class WristState(IntEnum):
     LIMITED = 5
     STALE = 6
     FAULT = 7
+    WAITING = 8
 
 
 def state_of(step: Step, commanded: Sequence[float]) -> WristState:

@@ -6,66 +6,23 @@ two clocks, as `commands` does: stamp time and receipt time.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from enum import Enum
-from typing import NamedTuple
+from contextlib import suppress
 
-from wrist_control.errors import InvalidValueError, RefusedError, WristError
+from wrist_control.errors import InvalidValueError, WristError
 from wrist_control.resolving.commands import Command, freshness, hand_twist
+from wrist_control.resolving.feedback import Feedback, checked_start, state_at
 from wrist_control.resolving.homing import has_reached, step_towards
-from wrist_control.resolving.joint_order import in_joint_order
 from wrist_control.resolving.latest_message import LatestMessage
+from wrist_control.resolving.period import Ending, Mode, PeriodResult, SupervisorSettings
 from wrist_control.resolving.report import WristState, sentence, state_of
-from wrist_control.resolving.step import ZERO_TWIST, State, Step, Twist, resting, start, step
-from wrist_control.wrists.wrist import Positions, Wrist
+from wrist_control.resolving.step import ZERO_TWIST, State, resting, start, step
+from wrist_control.wrists.wrist import Wrist
 
-# A joint may lag this far behind its command, rad and m, for this long, s.
-LAG = {'revolute': 0.35, 'prismatic': 0.02}
-LAG_TIME = 0.5
+# What clears a fault.
+GO_ON = 'Call ~/enable to go on from where the joints are.'
 
-
-class SupervisorSettings(NamedTuple):
-    """What a supervisor is told once.
-
-    Attributes:
-        dt: Duration of a step, s.
-        command_timeout: Age up to which a command is followed in full, s.
-        stop_time: How long the ramp to a stop takes after that, s.
-        initial_positions: Where to start, and where `reset` goes, rad or m.
-    """
-
-    dt: float
-    command_timeout: float
-    stop_time: float
-    initial_positions: Positions
-
-
-class PeriodResult(NamedTuple):
-    """What one period brought.
-
-    Attributes:
-        wrist_state: For the operator's status.
-        step: The step that was made.
-        commanded: The twist that was followed, hand axes, (vx, vy, vz, p, q, r).
-        message: What is happening and what to do, one sentence.
-        moving_allowed: False while nothing may be sent to the joints.
-    """
-
-    wrist_state: WristState
-    step: Step
-    commanded: Twist
-    message: str
-    moving_allowed: bool
-
-
-class Mode(Enum):
-    """Who is in charge of the joints."""
-
-    FOLLOWING = 'the operator'
-    HOMING = 'the reset'
-    DISABLED = 'nobody: disabled'
-    FAULT = 'nobody: a fault'
+__all__ = ['Mode', 'PeriodResult', 'Supervisor', 'SupervisorSettings']
 
 
 class Supervisor:
@@ -79,7 +36,7 @@ class Supervisor:
     """
 
     def __init__(self, wrist: Wrist, settings: SupervisorSettings) -> None:
-        """Start at the initial positions, at rest.
+        """Wait for the joints, or start at the initial positions; at rest.
 
         Raises:
             InvalidValueError: The initial positions cannot be used.
@@ -87,12 +44,13 @@ class Supervisor:
         self.wrist = wrist
         self.settings = settings
         self.state: State = start(wrist, settings.initial_positions)
-        self.mode = Mode.FOLLOWING
+        self.mode = Mode.WAITING if settings.require_joint_states else Mode.FOLLOWING
         self._commands: LatestMessage[Command] = LatestMessage()
-        self._measured: tuple[float, ...] | None = None
-        self._moved = False
-        self._lagging_since: float | None = None
-        self._fault = ''
+        self._feedback = Feedback(wrist.joints)
+        self._adopted = self._moving = False
+        self._ending: Ending | None = None
+        self._commanded = ZERO_TWIST
+        self._reason = ''
 
     def take_command(self, command: Command) -> None:
         """Follow a command from the first step after its stamp; the newest counts."""
@@ -101,7 +59,10 @@ class Supervisor:
     def take_measured(
         self, names: Sequence[str], positions: Sequence[float], receipt_time: float
     ) -> None:
-        """Hear where the joints really are; before the first motion, start from there.
+        """Hear where the joints really are.
+
+        Before the first motion the wrist starts from there, once, when they rest; after that they
+        are watched. Where nobody may move them, the state follows them.
 
         Args:
             names: Joint names, in any order; other joints may be among them.
@@ -110,45 +71,58 @@ class Supervisor:
 
         Raises:
             RefusedError: Wrong names, lengths or numbers; nothing has changed.
-            UnreachableError: A start that the mechanism cannot take; nothing has changed, but
-                where the joints are was never known it is a fault: to go on would be a jump.
+            WristError: No start from there; nothing has changed.
         """
-        measured = in_joint_order([joint.name for joint in self.wrist.joints], names, positions)
-        if not all(math.isfinite(x) for x in measured):
-            raise RefusedError(
-                'not finite', f'Refused joint states that are not finite: {measured}.'
-            )
-        if not self._moved and self.mode is Mode.FOLLOWING:
-            try:
-                self._adopt(measured)
-            except WristError as error:
-                if self._measured is None:
-                    self._fail(str(error))
-                raise
-        self._measured = measured
-        self._watch_lag(measured, receipt_time)
+        measured = self._feedback.hear(names, positions, receipt_time)
+        if self.mode in (Mode.FOLLOWING, Mode.HOMING):
+            self._watch(receipt_time)
+        else:
+            self._show(measured)
+        if self.mode in (Mode.WAITING, Mode.FOLLOWING) and not self._adopted:
+            self._adopt_when_resting(measured, receipt_time)
 
-    def enable(self, wanted: bool) -> str:
+    def enable(self, wanted: bool, *, receipt_time: float) -> str:
         """Allow or forbid motion; after a pause go on from where the joints really are.
 
+        Args:
+            wanted: True to allow it; False for a ramp to a stop.
+            receipt_time: Now, s.
+
         Raises:
-            WristError: The wrist cannot go on from there; it is in FAULT.
+            WristError: The wrist cannot go on from there; nothing has changed.
         """
         if not wanted:
-            self.mode = Mode.DISABLED
-            return 'Disabled: the joints stay where they are.'
+            self._end(
+                Mode.DISABLED, f'Disabled: the hand stays where it is. {GO_ON}', receipt_time
+            )
+            return 'Disabled: the hand stays where it is.'
         if self.mode in (Mode.DISABLED, Mode.FAULT):
-            self._commands.clear()
-            self._lagging_since = None
-            self._moved = False
-            try:
-                if self._measured is not None:
-                    self._adopt(self._measured)
-            except WristError as error:
-                self._fail(str(error))
-                raise
-        self.mode = Mode.FOLLOWING
+            self._take_over(receipt_time)
+        elif self._ending:
+            raise InvalidValueError('Cannot enable before the hand has stopped; call it again.')
+        if self.mode is Mode.WAITING:
+            return 'Enabled: commands are followed once the joints were heard.'
         return 'Enabled: following commands.'
+
+    def _take_over(self, receipt_time: float) -> None:
+        feedback = self._feedback
+        if feedback.positions is None:
+            self.mode = Mode.WAITING if self.settings.require_joint_states else Mode.FOLLOWING
+        else:
+            if feedback.age(receipt_time) > self.settings.feedback_timeout:
+                raise InvalidValueError(
+                    f'Cannot enable: {feedback.what_is_missing(receipt_time)}; start the joints '
+                    'first.'
+                )
+            if not feedback.resting:
+                raise InvalidValueError(
+                    'Cannot enable: the joints do not rest; hold them still, and call it again.'
+                )
+            self.state = checked_start(self.wrist, feedback.positions, self.state)
+            self._adopted, self.mode = True, Mode.FOLLOWING
+        self._commands.clear()
+        feedback.forget_lag()
+        self._reason = ''
 
     def reset(self) -> str:
         """Go back to the initial positions at the rate limits.
@@ -157,10 +131,9 @@ class Supervisor:
             InvalidValueError: Nobody may move the joints now, or the limits have changed and the
                 initial positions cannot be used any more.
         """
-        if self.mode in (Mode.DISABLED, Mode.FAULT):
-            raise InvalidValueError(
-                f'Cannot reset: {self.mode.value} is in charge; call ~/enable first.'
-            )
+        if self._ending or self.mode not in (Mode.FOLLOWING, Mode.HOMING):
+            mode = self._ending.mode if self._ending else self.mode
+            raise InvalidValueError(f'Cannot reset: {mode.value} is in charge; enable first.')
         start(self.wrist, self.settings.initial_positions)
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
@@ -173,80 +146,152 @@ class Supervisor:
             receipt_time: Now, s.
         """
         try:
-            if self.mode is Mode.HOMING:
-                return self._home()
-            if self.mode is Mode.FOLLOWING:
-                return self._follow(self._commands.at(stamp_time), receipt_time)
+            if self.mode in (Mode.FOLLOWING, Mode.HOMING):
+                if self._moving and self._deaf(receipt_time):
+                    self._end(Mode.FAULT, self._blind(receipt_time), receipt_time)
+                result = self._moved(stamp_time, receipt_time)
+                self._moving = any(result.step.joint_rates)
+                return self._ended(result) if self._ending else result
         except WristError as error:
             return self._fail(str(error))
         except ArithmeticError as error:
             return self._fail(f'The step could not be computed ({error}); nothing moves.')
-        return self._stand_still()
+        return self._stand_still(receipt_time)
+
+    def _moved(self, stamp_time: float, receipt_time: float) -> PeriodResult:
+        if self.mode is Mode.FOLLOWING and not self._ending:
+            return self._follow(self._commands.at(stamp_time), receipt_time)
+        if self._deaf(receipt_time) and not self._moving:
+            return self._hold(receipt_time)
+        if self.mode is Mode.HOMING:
+            return self._home(self._ramp(receipt_time))
+        assert self._ending is not None
+        share = self._ramp(receipt_time)
+        return self._step([share * x for x in self._ending.twist])
+
+    def _hold(self, receipt_time: float) -> PeriodResult:
+        return self._step(ZERO_TWIST)._replace(
+            wrist_state=WristState.WAITING, message=self._waiting(receipt_time)
+        )
 
     def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:
-        commanded, fresh = self._commanded(command, receipt_time)
-        taken = step(self.wrist, self.state, commanded, self.settings.dt)
-        self._moved = self._moved or any(taken.joint_rates)
-        self.state = taken.state
-        if command is not None and fresh < 1.0 and any(command.twist):
-            message = 'No fresh command: ramped to a stop; send commands again to go on.'
-            return PeriodResult(WristState.STALE, taken, commanded, message, True)
-        message = sentence(self.wrist, taken, commanded)
-        return PeriodResult(state_of(taken, commanded), taken, commanded, message, True)
-
-    def _commanded(self, command: Command | None, receipt_time: float) -> tuple[Twist, float]:
         if command is None:
-            return ZERO_TWIST, 0.0
+            return self._step(ZERO_TWIST)
+        settings = self.settings
         age = receipt_time - command.receipt
-        fresh = freshness(age, self.settings.command_timeout, self.settings.stop_time)
-        vx, vy, vz, p, q, r = hand_twist(command, self.state.pose.quaternion)
-        return (fresh * vx, fresh * vy, fresh * vz, fresh * p, fresh * q, fresh * r), fresh
+        fresh = freshness(age, settings.command_timeout, settings.stop_time)
+        if fresh and any(command.twist) and self._deaf(receipt_time) and not self._moving:
+            return self._hold(receipt_time)
+        result = self._step([fresh * x for x in hand_twist(command, self.state.pose.quaternion)])
+        if fresh < 1.0 and any(command.twist):
+            return result._replace(
+                wrist_state=WristState.STALE,
+                message='No fresh command: ramped to a stop; send commands again to go on.',
+            )
+        return result
 
-    def _home(self) -> PeriodResult:
+    def _step(self, commanded: Sequence[float]) -> PeriodResult:
+        vx, vy, vz, p, q, r = commanded
+        self._commanded = twist = (vx, vy, vz, p, q, r)
+        taken = step(self.wrist, self.state, twist, self.settings.dt)
+        self._adopted = self._adopted or any(taken.joint_rates)
+        self.state = taken.state
+        message = sentence(self.wrist, taken, twist)
+        return PeriodResult(state_of(taken, twist), taken, twist, message, True)
+
+    def _home(self, share: float) -> PeriodResult:
         before, goal, dt = self.state, self.settings.initial_positions, self.settings.dt
-        self.state = step_towards(self.wrist, before, goal, dt)
-        self._moved = True
+        if share > 0.0:
+            self.state = step_towards(self.wrist, before, goal, share * dt)
+        self._adopted, self._commanded = True, ZERO_TWIST
         rates = tuple(
             (new - old) / dt
             for old, new in zip(before.positions, self.state.positions, strict=True)
         )
         taken = resting(self.wrist, self.state)._replace(joint_rates=rates)
         if has_reached(self.state, goal):
-            self._adopt(goal)
-            self.state = self.state._replace(time_lost=0.0)
+            self.state = state_at(self.wrist, tuple(goal), self.state)._replace(time_lost=0.0)
             self.mode = Mode.FOLLOWING
             self._commands.clear()
         message = 'Resetting: on the way back to initial_positions; commands do not count now.'
         return PeriodResult(WristState.TRACKING, taken, ZERO_TWIST, message, True)
 
-    def _stand_still(self) -> PeriodResult:
-        resting_step = resting(self.wrist, self.state)
-        if self.mode is Mode.FAULT:
-            return PeriodResult(WristState.FAULT, resting_step, ZERO_TWIST, self._fault, False)
-        message = 'Disabled: call ~/enable to go on from where the joints are.'
-        return PeriodResult(WristState.DISABLED, resting_step, ZERO_TWIST, message, False)
+    def _end(self, mode: Mode, message: str, receipt_time: float) -> None:
+        """Ramp to a stop, if anything moves, and go to another mode then; a fault stays one."""
+        if self.mode is Mode.FAULT or (self._ending and self._ending.mode is Mode.FAULT):
+            return
+        if self.mode in (Mode.FOLLOWING, Mode.HOMING) and self._moving:
+            self._ending = Ending(mode, message, receipt_time, self._commanded)
+        else:
+            self._settle(mode, message)
+
+    def _ramp(self, receipt_time: float) -> float:
+        if not self._ending:
+            return 1.0
+        return freshness(receipt_time - self._ending.since, 0.0, self.settings.stop_time)
+
+    def _ended(self, result: PeriodResult) -> PeriodResult:
+        assert self._ending is not None
+        mode, message, _, _ = self._ending
+        if not self._moving:
+            self._settle(mode, message)
+        return result._replace(wrist_state=WristState[mode.name], message=message)
+
+    def _settle(self, mode: Mode, message: str) -> None:
+        self.mode, self._reason, self._ending, self._moving = mode, message, None, False
 
     def _fail(self, reason: str) -> PeriodResult:
-        self.mode = Mode.FAULT
-        self._fault = f'{reason} Call ~/enable to go on from where the joints are.'
-        return self._stand_still()
+        self._settle(Mode.FAULT, f'{reason} {GO_ON}')
+        return self._stand_still(0.0)
 
-    def _adopt(self, measured: Sequence[float]) -> None:
-        positions = self.wrist.resolve_assembly(measured, self.state.pose)
-        pose = self.wrist.forward(positions)
-        self.state = State(positions, pose, time_lost=self.state.time_lost)
+    def _stand_still(self, receipt_time: float) -> PeriodResult:
+        message = self._waiting(receipt_time) if self.mode is Mode.WAITING else self._reason
+        still = resting(self.wrist, self.state)
+        return PeriodResult(WristState[self.mode.name], still, ZERO_TWIST, message, False)
 
-    def _watch_lag(self, measured: Sequence[float], receipt_time: float) -> None:
-        lags = [
-            (abs(told - seen) - LAG[joint.kind], joint.name, told, seen)
-            for joint, told, seen in zip(
-                self.wrist.joints, self.state.positions, measured, strict=True
+    def _waiting(self, receipt_time: float) -> str:
+        """Return what is waited for, and how to go on."""
+        missing = self._feedback.what_is_missing(receipt_time)
+        if self._feedback.positions is None:
+            return (
+                f'Waiting: {missing}; start the joints, or set require_joint_states to false to '
+                'go on without.'
             )
-        ]
-        excess, name, told, seen = max(lags)
-        if excess <= 0.0 or self.mode not in (Mode.FOLLOWING, Mode.HOMING):
-            self._lagging_since = None
-        elif self._lagging_since is None:
-            self._lagging_since = receipt_time
-        elif receipt_time - self._lagging_since > LAG_TIME:
-            self._fail(f'{name} is at {seen:.3f} but was told {told:.3f}: it does not follow.')
+        if self._deaf(receipt_time):
+            return f'Waiting: {missing}, and nothing moves without them; start the joints.'
+        return self._reason or 'Waiting for the joints to rest.'
+
+    def _blind(self, receipt_time: float) -> str:
+        missing = self._feedback.what_is_missing(receipt_time)
+        return f'Stopped, since {missing}: the hand would move unseen. {GO_ON}'
+
+    def _deaf(self, receipt_time: float) -> bool:
+        """Return whether the joints were heard too long ago to move by."""
+        if not self.settings.require_joint_states:
+            return False
+        return self._feedback.age(receipt_time) > self.settings.feedback_timeout
+
+    def _watch(self, receipt_time: float) -> None:
+        found = self._feedback.joint_that_does_not_follow(
+            self.state.positions, self.settings.tracking_tolerance, self.settings.tracking_time
+        )
+        if found:
+            self._end(Mode.FAULT, f'{found} {GO_ON}', receipt_time)
+
+    def _show(self, measured: Sequence[float]) -> None:
+        with suppress(WristError):
+            self.state = state_at(self.wrist, measured, self.state)
+
+    def _adopt_when_resting(self, measured: Sequence[float], receipt_time: float) -> None:
+        if not self._feedback.resting:
+            self._reason = ''
+            return
+        try:
+            self.state = checked_start(self.wrist, measured, self.state)
+        except WristError as error:
+            self._reason = f'Waiting: {error}'
+            if self.mode is Mode.FOLLOWING:
+                self._end(Mode.FAULT, f'{error} {GO_ON}', receipt_time)
+            raise
+        self._adopted, self.mode = True, Mode.FOLLOWING
+        self._commands.clear()

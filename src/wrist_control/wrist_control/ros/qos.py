@@ -1,6 +1,6 @@
 """Quality of service, as in docs/interfaces.md."""
 
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 # What is published reaches every kind of subscriber.
 OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
@@ -8,3 +8,9 @@ OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 # Positions may come in a burst: each is where to be at its own stamp.
 EVERY = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+# Said once, and heard by whoever comes later.
+LASTING = QoSProfile(
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
