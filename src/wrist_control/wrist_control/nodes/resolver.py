@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable
 from functools import partial
 from types import SimpleNamespace
@@ -10,7 +11,7 @@ from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
+from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
@@ -19,9 +20,10 @@ from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
 from wrist_control.resolving.commands import CommandPolicy, ReceivedTwist
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import PeriodResult, Supervisor
+from wrist_control.resolving.supervisor import Mode, PeriodResult, Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
+from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import declare, watch
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
@@ -41,7 +43,7 @@ TYPES = {
 }
 
 
-class Resolver(Node):
+class Resolver(GuardedNode):
     """Turns operator rates into joint commands for one wrist."""
 
     def __init__(self, wrist_name: str, **node_options: Any) -> None:
@@ -61,6 +63,7 @@ class Resolver(Node):
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
         self._result = self._supervisor.tick(stamp_time=0.0, receipt_time=0.0)
+        self._stamp = 0
         self._warned_unstamped = False
         self._receipt_clock = Clock(clock_type=ClockType.STEADY_TIME)
         if self.get_parameter('use_sim_time').value:
@@ -133,12 +136,27 @@ class Resolver(Node):
         return answer
 
     def _tick(self) -> None:
-        now = self.get_clock().now()
+        self._step(self.get_clock().now().nanoseconds)
+
+    def _step(self, stamp: int) -> None:
+        self._stamp = stamp
         self._result = self._supervisor.tick(
-            stamp_time=convert.seconds_of(now.nanoseconds),
+            stamp_time=convert.seconds_of(stamp),
             receipt_time=self._seconds(self._receipt_clock),
         )
-        self._outputs.publish(self._result, now.to_msg())
+        self._outputs.publish(self._result, Time(nanoseconds=stamp).to_msg())
+
+    def wind_down(self) -> None:
+        """Ramp to a stop, whatever the clock does, and let only a zero stand at the end."""
+        self._supervisor.stop('Ending: the hand is ramped to a stop.', Mode.DISABLED)
+        period = 1.0 / self._values['rate']
+        try:
+            while self._result.moving_allowed:
+                time.sleep(period)
+                now = self.get_clock().now().nanoseconds
+                self._step(max(now, self._stamp + round(1e9 * period)))  # a clock may stand still
+        finally:
+            self._outputs.settle()
 
     def _check(self, changed: dict[str, Any]) -> None:
         limited(self._supervisor.wrist, {**self._values, **changed})

@@ -13,9 +13,10 @@ from typing import NamedTuple
 
 from wrist_control.errors import InvalidValueError, RefusedError, WristError
 from wrist_control.resolving.commands import Command, freshness, hand_twist
-from wrist_control.resolving.homing import has_reached, step_towards
+from wrist_control.resolving.homing import has_reached, step_home
 from wrist_control.resolving.joint_order import in_joint_order
 from wrist_control.resolving.latest_message import LatestMessage
+from wrist_control.resolving.ramp import Ramp
 from wrist_control.resolving.report import WristState, sentence, state_of
 from wrist_control.resolving.step import ZERO_TWIST, State, Step, Twist, resting, start, step
 from wrist_control.wrists.wrist import Positions, Wrist
@@ -93,10 +94,28 @@ class Supervisor:
         self._moved = False
         self._lagging_since: float | None = None
         self._fault = ''
+        self._followed: Twist = ZERO_TWIST
+        self._ramp: Ramp[Mode] | None = None
 
     def take_command(self, command: Command) -> None:
         """Follow a command from the first step after its stamp; the newest counts."""
         self._commands.put(command.stamp, command)
+
+    def stop(self, message: str, then: Mode) -> None:
+        """Take the command away: ramp to a stop over `stop_time`, counted in steps.
+
+        Args:
+            message: What happens and what to do, one sentence; of a fault, its reason.
+            then: Who is in charge once the joints are at rest. FOLLOWING waits for new commands.
+        """
+        if self.mode in (Mode.DISABLED, Mode.FAULT):
+            if then is Mode.FAULT:
+                self._fail(message)
+        elif self._ramp is None:
+            moving = self.mode is Mode.HOMING or any(self._followed)
+            self._ramp = Ramp(float(moving), then, message)
+        elif then is not Mode.FOLLOWING:
+            self._ramp = self._ramp._replace(then=then, message=message)
 
     def take_measured(
         self, names: Sequence[str], positions: Sequence[float], receipt_time: float
@@ -135,8 +154,10 @@ class Supervisor:
             WristError: The wrist cannot go on from there; it is in FAULT.
         """
         if not wanted:
-            self.mode = Mode.DISABLED
+            self.mode, self._ramp = Mode.DISABLED, None
             return 'Disabled: the joints stay where they are.'
+        if self._ramp is not None:
+            raise InvalidValueError('Cannot enable: coming to a stop; call ~/enable again then.')
         if self.mode in (Mode.DISABLED, Mode.FAULT):
             self._commands.clear()
             self._lagging_since = None
@@ -157,6 +178,8 @@ class Supervisor:
             InvalidValueError: Nobody may move the joints now, or the limits have changed and the
                 initial positions cannot be used any more.
         """
+        if self._ramp is not None:
+            raise InvalidValueError('Cannot reset: coming to a stop; call ~/reset again then.')
         if self.mode in (Mode.DISABLED, Mode.FAULT):
             raise InvalidValueError(
                 f'Cannot reset: {self.mode.value} is in charge; call ~/enable first.'
@@ -173,6 +196,8 @@ class Supervisor:
             receipt_time: Now, s.
         """
         try:
+            if self._ramp is not None:
+                return self._ramp_down(self._ramp)
             if self.mode is Mode.HOMING:
                 return self._home()
             if self.mode is Mode.FOLLOWING:
@@ -185,6 +210,7 @@ class Supervisor:
 
     def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:
         commanded, fresh = self._commanded(command, receipt_time)
+        self._followed = commanded
         taken = step(self.wrist, self.state, commanded, self.settings.dt)
         self._moved = self._moved or any(taken.joint_rates)
         self.state = taken.state
@@ -202,20 +228,33 @@ class Supervisor:
         vx, vy, vz, p, q, r = hand_twist(command, self.state.pose.quaternion)
         return (fresh * vx, fresh * vy, fresh * vz, fresh * p, fresh * q, fresh * r), fresh
 
+    def _ramp_down(self, ramp: Ramp[Mode]) -> PeriodResult:
+        self._ramp = ramp = ramp.after(self.settings.dt, self.settings.stop_time)
+        commanded = ramp.of(self._followed)
+        if self.mode is Mode.HOMING:
+            goal = self.settings.initial_positions
+            taken = step_home(self.wrist, self.state, goal, self.settings.dt, ramp.share)
+        else:
+            taken = step(self.wrist, self.state, commanded, self.settings.dt)
+        self.state = taken.state
+        if ramp.share == 0.0:  # with this step a zero is sent: now the joints may be let go
+            self._commands.clear()
+            self.mode, self._ramp = ramp.then, None
+            if ramp.then is Mode.FAULT:
+                self._fail(ramp.message)
+        return PeriodResult(WristState.STALE, taken, commanded, ramp.message, True)
+
     def _home(self) -> PeriodResult:
-        before, goal, dt = self.state, self.settings.initial_positions, self.settings.dt
-        self.state = step_towards(self.wrist, before, goal, dt)
+        goal = self.settings.initial_positions
+        taken = step_home(self.wrist, self.state, goal, self.settings.dt)
+        self.state = taken.state
         self._moved = True
-        rates = tuple(
-            (new - old) / dt
-            for old, new in zip(before.positions, self.state.positions, strict=True)
-        )
-        taken = resting(self.wrist, self.state)._replace(joint_rates=rates)
         if has_reached(self.state, goal):
             self._adopt(goal)
             self.state = self.state._replace(time_lost=0.0)
             self.mode = Mode.FOLLOWING
             self._commands.clear()
+        self._followed = ZERO_TWIST
         message = 'Resetting: on the way back to initial_positions; commands do not count now.'
         return PeriodResult(WristState.TRACKING, taken, ZERO_TWIST, message, True)
 
@@ -227,7 +266,7 @@ class Supervisor:
         return PeriodResult(WristState.DISABLED, resting_step, ZERO_TWIST, message, False)
 
     def _fail(self, reason: str) -> PeriodResult:
-        self.mode = Mode.FAULT
+        self.mode, self._ramp = Mode.FAULT, None
         self._fault = f'{reason} Call ~/enable to go on from where the joints are.'
         return self._stand_still()
 
