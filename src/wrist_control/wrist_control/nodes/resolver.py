@@ -27,6 +27,7 @@ from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import declare, watch
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
+from wrist_control.ros.shown import shown
 from wrist_control.ros.wrong_types import WrongTypes
 from wrist_control.wrists import WRISTS
 
@@ -64,6 +65,7 @@ class Resolver(GuardedNode):
         self._outputs = Outputs(self, wrist, self._values)
         self._result = self._supervisor.tick(stamp_time=0.0, receipt_time=0.0)
         self._stamp = 0
+        self._broken = False
         self._warned_unstamped = False
         self._receipt_clock = Clock(clock_type=ClockType.STEADY_TIME)
         if self.get_parameter('use_sim_time').value:
@@ -86,7 +88,7 @@ class Resolver(GuardedNode):
         if stamp is None and not self._warned_unstamped:
             self._warned_unstamped = True
             self.get_logger().warning('Commands on cmd_vel have no stamp; each counts as new.')
-        self._take('cmd_vel', message.twist, message.header.frame_id, stamp)
+        self._take('cmd_vel', message.twist, shown(message.header.frame_id), stamp)
 
     def _on_unstamped(self, message: Twist) -> None:
         self._take('cmd_vel_unstamped', message, '', None)
@@ -120,7 +122,10 @@ class Resolver(GuardedNode):
             self._diagnostics.refuse('joint_states', refused)
 
     def _on_enable(self, request: SetBool.Request, answer: SetBool.Response) -> Any:
-        return self._answer(answer, partial(self._supervisor.enable, request.data))
+        self._answer(answer, partial(self._supervisor.enable, request.data))
+        if answer.success:
+            self.unexpected.clear()
+        return answer
 
     def _on_reset(self, _: Trigger.Request, answer: Trigger.Response) -> Any:
         return self._answer(answer, self._supervisor.reset)
@@ -136,7 +141,19 @@ class Resolver(GuardedNode):
         return answer
 
     def _tick(self) -> None:
-        self._step(self.get_clock().now().nanoseconds)
+        try:
+            self._step(self.get_clock().now().nanoseconds)
+        except Exception:
+            if self._broken:  # the ramp cannot be computed either: a zero without one
+                self._outputs.zero()
+                self._supervisor.enable(False)
+            self._broken = True
+            raise
+        self._broken = False
+
+    def on_unexpected(self, sentence: str) -> None:
+        """Ramp to a stop and be in FAULT."""
+        self._supervisor.stop(sentence, Mode.FAULT)
 
     def _step(self, stamp: int) -> None:
         self._stamp = stamp

@@ -81,12 +81,16 @@ class Outputs:
         self._count += 1
 
     def settle(self) -> None:
-        """Leave a zero as the last velocity, even when no step can be made, and see it arrive."""
+        """Leave a zero as the last velocity, and see it arrive."""
+        self.zero()
+        self._velocity.wait_for_all_acked(LAST_WORDS)
+
+    def zero(self) -> None:
+        """Leave a zero as the last velocity, even when no step can be made any more."""
         if self._was_allowed:
             zero = array.array('d', [0.0] * len(self._names))
             self._velocity.publish(Float64MultiArray(data=zero))
             self._was_allowed = False
-        self._velocity.wait_for_all_acked(LAST_WORDS)
 
     def _status_message(self, result: PeriodResult, stamp: Time) -> WristStatus:
         taken = result.step

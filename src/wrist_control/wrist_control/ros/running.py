@@ -11,6 +11,7 @@ import signal
 import socket
 import sys
 import threading
+import time
 import traceback
 from collections.abc import Callable
 from importlib import import_module
@@ -27,6 +28,8 @@ from wrist_control.ros.guarded import GuardedNode
 
 # The events executor of this release spins at full load when it waits without a limit.
 LONGEST_WAIT = 3600.0
+# An executor that raises so often, each time within so many s, will not work again.
+MOST_BREAKS, SOON = 10, 1.0
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -64,13 +67,26 @@ def _live(node: GuardedNode, told: socket.socket) -> None:
     gc.freeze()  # what lives now lives to the end: it need not be looked at again
     threading.Thread(target=_await_signal, args=(told, ended), daemon=True).start()
     try:
-        while rclpy.ok() and not ended.done():
-            executor.spin_until_future_complete(ended, timeout_sec=LONGEST_WAIT)
+        _spin(node, executor, ended)
     finally:
         node.wind_down()
         executor.remove_node(node)
         executor.shutdown()
         node.destroy_node()
+
+
+def _spin(node: GuardedNode, executor: Executor, ended: Future) -> None:
+    """Spin to the end; what the executor itself raises is told, and only if it goes on ends it."""
+    breaks = 0
+    while rclpy.ok() and not ended.done():
+        began = time.monotonic()
+        try:
+            executor.spin_until_future_complete(ended, timeout_sec=LONGEST_WAIT)
+        except Exception as error:
+            breaks = breaks + 1 if time.monotonic() - began < SOON else 1
+            if breaks >= MOST_BREAKS:
+                raise
+            node.tell_unexpected('the executor', error)
 
 
 def _hear_signals() -> socket.socket:

@@ -9,6 +9,8 @@ from collections.abc import Mapping
 
 from rclpy.node import Node
 
+from wrist_control.ros.shown import shown
+
 
 class WrongTypes:
     """Looks once a second who publishes what a node listens to.
@@ -31,11 +33,17 @@ class WrongTypes:
 
     def _look(self) -> None:
         for topic, kind in self._topics.items():
-            for publisher in self._node.get_publishers_info_by_topic(topic):
+            try:
+                publishers = self._node.get_publishers_info_by_topic(topic)
+            except UnicodeDecodeError:
+                self._name(topic, kind, 'somebody', 'a type whose name is not text')
+                continue
+            for publisher in publishers:
                 if publisher.topic_type != kind:
                     self._name(topic, kind, publisher.node_name, publisher.topic_type)
 
     def _name(self, topic: str, kind: str, node_name: str, wrong: str) -> None:
+        node_name, wrong = shown(node_name), shown(wrong)
         if (node_name, topic) in self.found:
             return
         sentence = (
