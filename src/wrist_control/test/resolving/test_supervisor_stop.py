@@ -68,6 +68,27 @@ def test_a_hand_at_rest_is_stopped_with_a_single_zero(wrist):
     assert not wrist.tick().moving_allowed
 
 
+def test_a_hand_that_has_come_to_rest_does_not_move_again_when_it_is_stopped_again(rolling):
+    rolling.supervisor.stop('Enough.', Mode.FOLLOWING)
+    rolling.ticks(0.1)
+    assert not rolling.supervisor.stopping
+    rolling.supervisor.stop('Enough.', Mode.FOLLOWING)
+    assert not any(rolling.tick().step.joint_rates)
+
+
+def test_what_was_followed_before_a_pause_is_not_ramped_down_after_it(rolling):
+    rolling.supervisor.enable(False)
+    rolling.supervisor.enable(True)
+    rolling.supervisor.stop('Enough.', Mode.DISABLED)
+    assert not any(rolling.tick().step.joint_rates)
+
+
+def test_a_stop_at_rest_drops_the_command_that_has_not_counted_yet(wrist):
+    wrist.command(ROLL)
+    wrist.supervisor.stop('The clock.', Mode.FOLLOWING)
+    assert wrist.tick().wrist_state is WristState.IDLE
+
+
 def test_a_stop_on_its_way_goes_on_and_ends_where_the_later_one_says(rolling):
     rolling.supervisor.stop('The clock.', Mode.FOLLOWING)
     rolling.ticks(0.05)

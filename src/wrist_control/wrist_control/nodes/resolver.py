@@ -10,12 +10,12 @@ from types import SimpleNamespace
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
-from rclpy.clock import Clock, ClockType
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
 from wrist_control.errors import RefusedError, WristError
+from wrist_control.nodes.resolver_clock import StepClock
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
 from wrist_control.resolving.commands import CommandPolicy, ReceivedTwist
@@ -64,17 +64,13 @@ class Resolver(GuardedNode):
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
         self._result = self._supervisor.tick(stamp_time=0.0, receipt_time=0.0)
-        self._stamp = 0
         self._broken = False
         self._warned_unstamped = False
-        self._receipt_clock = Clock(clock_type=ClockType.STEADY_TIME)
-        if self.get_parameter('use_sim_time').value:
-            self._receipt_clock = self.get_clock()
         watch(self, wanted, self._check, self._apply)
         self._diagnostics = Diagnostics(self, self._health)
         self._wrong_types = WrongTypes(self, TYPES)
+        self._step_clock = StepClock(self, self._supervisor, self._step)
         self._listen()
-        self.create_timer(1.0 / self._values['rate'], self._tick)
 
     def _listen(self) -> None:
         self.create_subscription(TwistStamped, 'cmd_vel', self._on_stamped, NEWEST)
@@ -102,24 +98,26 @@ class Resolver(GuardedNode):
         try:
             command = policy.accept(
                 ReceivedTwist(convert.twist_values(twist), frame, stamp),
-                stamp_time=self._seconds(self.get_clock()),
-                receipt_time=self._seconds(self._receipt_clock),
+                stamp_time=self._step_clock.stamp_time(),
+                receipt_time=self._step_clock.receipt_time(),
             )
         except RefusedError as error:
             self._diagnostics.refuse(topic, error)
         else:
             self._supervisor.take_command(command)
+            self._step_clock.timing.hear('command', command.receipt, stamp)
 
     def _on_joint_states(self, message: JointState) -> None:
         prefix = self._values['joint_prefix']
         names = [name.removeprefix(prefix) for name in message.name]
+        now = self._step_clock.receipt_time()
         try:
-            self._supervisor.take_measured(
-                names, message.position, self._seconds(self._receipt_clock)
-            )
+            self._supervisor.take_measured(names, message.position, now)
         except (RefusedError, WristError) as error:
             refused = error if isinstance(error, RefusedError) else RefusedError('bad', str(error))
             self._diagnostics.refuse('joint_states', refused)
+        else:
+            self._step_clock.timing.hear('joint states', now)
 
     def _on_enable(self, request: SetBool.Request, answer: SetBool.Response) -> Any:
         self._answer(answer, partial(self._supervisor.enable, request.data))
@@ -140,9 +138,12 @@ class Resolver(GuardedNode):
             answer.message, answer.success = str(error), False
         return answer
 
-    def _tick(self) -> None:
+    def _step(self, stamp: int) -> None:
         try:
-            self._step(self.get_clock().now().nanoseconds)
+            self._result = self._supervisor.tick(
+                stamp_time=convert.seconds_of(stamp), receipt_time=self._step_clock.receipt_time()
+            )
+            self._outputs.publish(self._result, Time(nanoseconds=stamp).to_msg())
         except Exception:
             if self._broken:  # the ramp cannot be computed either: a zero without one
                 self._outputs.zero()
@@ -155,14 +156,6 @@ class Resolver(GuardedNode):
         """Ramp to a stop and be in FAULT."""
         self._supervisor.stop(sentence, Mode.FAULT)
 
-    def _step(self, stamp: int) -> None:
-        self._stamp = stamp
-        self._result = self._supervisor.tick(
-            stamp_time=convert.seconds_of(stamp),
-            receipt_time=self._seconds(self._receipt_clock),
-        )
-        self._outputs.publish(self._result, Time(nanoseconds=stamp).to_msg())
-
     def wind_down(self) -> None:
         """Ramp to a stop, whatever the clock does, and let only a zero stand at the end."""
         self._supervisor.stop('Ending: the hand is ramped to a stop.', Mode.DISABLED)
@@ -170,8 +163,7 @@ class Resolver(GuardedNode):
         try:
             while self._result.moving_allowed:
                 time.sleep(period)
-                now = self.get_clock().now().nanoseconds
-                self._step(max(now, self._stamp + round(1e9 * period)))  # a clock may stand still
+                self._step_clock.step_by_steady_clock()
         finally:
             self._outputs.settle()
 
@@ -192,14 +184,13 @@ class Resolver(GuardedNode):
             'margin': f'{result.step.margin:.4f}',
         }
         level = LEVELS.get(result.wrist_state, OK)
+        distrusted, timing = self._step_clock.health()
+        values.update(timing)
+        level = max(level, WARN if distrusted else OK)
         for (publisher, topic), sentence in self._wrong_types.found.items():
             values[f'{publisher} on {topic}'] = sentence
             level = max(level, WARN)
         return level, result.message, values
-
-    @staticmethod
-    def _seconds(clock: Clock) -> float:
-        return convert.seconds_of(clock.now().nanoseconds)
 
 
 def main(wrist_name: str) -> None:

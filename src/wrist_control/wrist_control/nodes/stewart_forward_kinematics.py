@@ -97,7 +97,7 @@ class StewartForwardKinematics(GuardedNode):
             ForwardKinematicsStatus, 'forward_kinematics_status', OUTPUT
         )
         self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
-        self._waiting = self.create_timer(1.0, self._wait)
+        self._waiting = self.create_timer(1.0, self._wait, clock=self.steady)
 
     def _platform(self) -> Stewart:
         values = self._values

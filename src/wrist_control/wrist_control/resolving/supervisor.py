@@ -101,6 +101,11 @@ class Supervisor:
         """Follow a command from the first step after its stamp; the newest counts."""
         self._commands.put(command.stamp, command)
 
+    @property
+    def stopping(self) -> bool:
+        """Whether a stop is on its way."""
+        return self._ramp is not None
+
     def stop(self, message: str, then: Mode) -> None:
         """Take the command away: ramp to a stop over `stop_time`, counted in steps.
 
@@ -113,6 +118,9 @@ class Supervisor:
                 self._fail(message)
         elif self._ramp is None:
             moving = self.mode is Mode.HOMING or any(self._followed)
+            self._commands.clear()
+            if then is Mode.FOLLOWING and not moving:
+                return
             self._ramp = Ramp(float(moving), then, message)
         elif then is not Mode.FOLLOWING:
             self._ramp = self._ramp._replace(then=then, message=message)
@@ -161,7 +169,7 @@ class Supervisor:
         if self.mode in (Mode.DISABLED, Mode.FAULT):
             self._commands.clear()
             self._lagging_since = None
-            self._moved = False
+            self._moved, self._followed = False, ZERO_TWIST
             try:
                 if self._measured is not None:
                     self._adopt(self._measured)
@@ -239,7 +247,7 @@ class Supervisor:
         self.state = taken.state
         if ramp.share == 0.0:  # with this step a zero is sent: now the joints may be let go
             self._commands.clear()
-            self.mode, self._ramp = ramp.then, None
+            self.mode, self._ramp, self._followed = ramp.then, None, ZERO_TWIST
             if ramp.then is Mode.FAULT:
                 self._fail(ramp.message)
         return PeriodResult(WristState.STALE, taken, commanded, ramp.message, True)

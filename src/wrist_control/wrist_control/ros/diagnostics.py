@@ -36,7 +36,7 @@ class Diagnostics:
         self._health = health
         self._seen = 0
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', OUTPUT)
-        node.create_timer(1.0, self._publish)
+        node.create_timer(1.0, self._publish, clock=node.steady)
 
     def refuse(self, topic: str, error: RefusedError) -> None:
         """Count a refused message, and say why at most once a second."""

@@ -8,7 +8,9 @@ from collections.abc import Callable
 from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 
 from wrist_control.errors import RefusedError
@@ -16,6 +18,7 @@ from wrist_control.ros.shown import shown
 
 # A message of a thousand joints has about half of this; to unpack a larger one takes too long.
 MOST_BYTES = 256 * 1024
+KEPT = 'use_sim_time cannot change while a node runs: start it again with the other value.'
 
 
 class GuardedNode(Node):
@@ -24,7 +27,12 @@ class GuardedNode(Node):
     An exception that nobody expected ends no callback's node: it is logged once, shown in
     /diagnostics until `unexpected` is cleared, and `on_unexpected` brings the hand to rest.
 
+    Timers run on a steady clock, which nobody can set; where `use_sim_time` is set, and the
+    caller does not ask for another, on the simulated one.
+
     Attributes:
+        steady: The clock that never jumps.
+        simulated: True where `use_sim_time` is set.
         unexpected: One sentence for each such exception, by where it came from.
         on_refused: Called with a topic and why a message was not even unpacked.
     """
@@ -36,9 +44,13 @@ class GuardedNode(Node):
             node_name: What it is called.
             node_options: Passed on to rclpy.
         """
+        self.steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.unexpected: dict[str, str] = {}
         self.on_refused: Callable[[str, RefusedError], None] = lambda topic, error: None
         super().__init__(node_name, **node_options)
+        self.simulated: bool = self.get_parameter('use_sim_time').value
+        # Before the callback that rclpy has set up, which would change the clock at once.
+        self.add_on_set_parameters_callback(self._keep_clock)
 
     def wind_down(self) -> None:
         """Bring to rest whatever this node moves; called once, after its last callback."""
@@ -63,6 +75,7 @@ class GuardedNode(Node):
     def create_timer(self, timer_period_sec: float, callback: Any, **options: Any) -> Any:
         """Make a timer whose callback is guarded."""
         where = getattr(callback, '__qualname__', 'a timer')
+        options.setdefault('clock', self.get_clock() if self.simulated else self.steady)
         return super().create_timer(timer_period_sec, self._guard(callback, where), **options)
 
     def create_subscription(
@@ -103,6 +116,10 @@ class GuardedNode(Node):
     def add_post_set_parameters_callback(self, callback: Any) -> None:
         """Have a guarded callback follow new parameters."""
         super().add_post_set_parameters_callback(self._guard(callback, 'a change of parameters'))
+
+    def _keep_clock(self, parameters: list[Parameter]) -> SetParametersResult:
+        changed = any(p.name == 'use_sim_time' and p.value != self.simulated for p in parameters)
+        return SetParametersResult(successful=not changed, reason=KEPT if changed else '')
 
     def _guard(
         self, callback: Any, where: str, answer: Callable[..., Any] = lambda *_: None

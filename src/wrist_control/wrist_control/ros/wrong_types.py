@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rclpy.node import Node
-
+from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.shown import shown
 
 
@@ -19,7 +18,7 @@ class WrongTypes:
         found: One sentence for each wrong publisher, by its name and topic.
     """
 
-    def __init__(self, node: Node, topics: Mapping[str, str]) -> None:
+    def __init__(self, node: GuardedNode, topics: Mapping[str, str]) -> None:
         """Watch some topics.
 
         Args:
@@ -29,7 +28,7 @@ class WrongTypes:
         self.found: dict[tuple[str, str], str] = {}
         self._node = node
         self._topics = {node.resolve_topic_name(topic): kind for topic, kind in topics.items()}
-        node.create_timer(1.0, self._look)
+        node.create_timer(1.0, self._look, clock=node.steady)
 
     def _look(self) -> None:
         for topic, kind in self._topics.items():
