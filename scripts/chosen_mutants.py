@@ -30,7 +30,11 @@ SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
 SEARCH, FEEDBACK = 'resolving/search.py', 'resolving/feedback.py'
 JOYSTICK = 'operating/joystick.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
-RECEIPT, STAMP = 'self._seconds(self._receipt_clock)', 'self._seconds(self.get_clock())'
+CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
+RECEIPT = 'receipt_time=self._step_clock.receipt_time()'
+STEADY = 'return convert.seconds_of(self._node.steady.now().nanoseconds)'
+CAUGHT = '            except Exception as error:\n                return'
+MISSED = CAUGHT.replace('Exception', 'KeyError')
 FIRST = "self.__dict__.setdefault('_first', self._values['command_timeout'])"
 LOOK = 'if publisher.topic_type != kind:'
 QOS, RECORDING = 'ros/qos.py', 'graph/recording.py'
@@ -47,26 +51,24 @@ CHOSEN = tuple(
         (NODE, 'self._supervisor.wrist = limited(', 'limited(', 'live limits are dead'),
         (OPERATOR, 'self._check, self._values.update)', 'self._check, bool)', 'no live rates'),
         # Clocks: a system clock that is set must not keep the hand moving.
+        (CLOCK, STEADY, 'return self.stamp_time()', 'no stop in silence'),
+        (NODE, f'{RECEIPT},\n            )', 'receipt_time=0.0,\n            )', 'ages'),
+        (NODE, f'(stamp), {RECEIPT}', '(stamp), receipt_time=0.0', 'ages'),
+        (NODE, 'now = self._step_clock.receipt_time()', 'now = 0.0', 'no fault'),
+        (CLOCK, 'if self._watch.look(now, steady):', 'if False:', 'moves without a clock'),
+        (CLOCK, 'if self._watch.stands and', 'if False and', 'moves without a clock'),
+        (CLOCK, 'if self.timing.is_due(now):', 'if True:', 'too fast by stamp'),
+        (CLOCK, 'return convert.seconds_of(self._watch.age', 'return 1e-9 * int', 'never stale'),
+        (GUARDED, 'if len(data) > MOST_BYTES:', 'if False:', 'a message stops the loop'),
+        (GUARDED, 'successful=not changed', 'successful=True', 'another clock on the way'),
         (
-            NODE,
-            'Clock(clock_type=ClockType.STEADY_TIME)',
-            'self.get_clock()',
-            'no stop in silence',
+            GUARDED,
+            '            except Exception as error:\n                return',
+            MISSED,
+            'ends moving',
         ),
-        (
-            NODE,
-            f'names, message.position, {RECEIPT}',
-            f'names, message.position, {STAMP}',
-            'no fault',
-        ),
-        (
-            NODE,
-            f'receipt_time={RECEIPT},\n            )',
-            f'receipt_time={STAMP},\n            )',
-            'ages',
-        ),
-        (NODE, f'receipt_time={RECEIPT},\n        )', f'receipt_time={STAMP},\n        )', 'ages'),
-        (NODE, "if self.get_parameter('use_sim_time').value:", 'if False:', 'other runs differ'),
+        ('ros/running.py', '        node.wind_down()', '        pass', 'moves on for ever'),
+        (SUPERVISOR, 'then, None, ZERO_TWIST', 'then, None, self._followed', 'moves again'),
         ('ros/convert.py', '        return None\n', '        return 0.0\n', 'no stamp is too old'),
         ('resolving/commands.py', 'CLOCK_SKEW = 0.05', 'CLOCK_SKEW = 0.5', 'the future counts'),
         # Stopping.

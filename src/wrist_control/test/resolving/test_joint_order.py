@@ -37,3 +37,15 @@ def test_missing_and_repeated_joints_are_refused(names, values, reason, sentence
     with pytest.raises(RefusedError, match=sentence) as refused:
         in_joint_order(JOINTS, names, values)
     assert refused.value.reason == reason
+
+
+@pytest.mark.parametrize(('names', 'values'), [(1001, 1001), (1001, 0), (0, 1001)])
+def test_more_than_a_thousand_joints_are_not_looked_at(names, values):
+    with pytest.raises(RefusedError, match='at most 1000') as refused:
+        in_joint_order(['a'], ['a'] * names, [0.0] * values)
+    assert refused.value.reason == 'too many joints'
+
+
+def test_a_thousand_are():
+    names = [f'joint_{number}' for number in range(1000)]
+    assert in_joint_order(['joint_999'], names, range(1000)) == (999.0,)

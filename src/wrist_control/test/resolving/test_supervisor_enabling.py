@@ -57,7 +57,7 @@ def test_enabled_before_it_has_stopped_is_refused(wrist):
     wrist.ticks(0.1, PITCH)
     wrist.enable(False)
     wrist.tick()
-    with pytest.raises(InvalidValueError, match='before the hand has stopped'):
+    with pytest.raises(InvalidValueError, match='coming to a stop'):
         wrist.enable(True)
     wrist.ticks(0.2)
     wrist.enable(True)

@@ -62,7 +62,9 @@ def test_a_reset_at_home_is_done_at_once(wrist):
 
 def test_a_reset_needs_somebody_who_may_move(wrist):
     wrist.enable(False)
-    with pytest.raises(InvalidValueError, match=r'Cannot reset: nobody: disabled .* enable first'):
+    with pytest.raises(
+        InvalidValueError, match=r'Cannot reset: nobody: disabled .* ~/enable first'
+    ):
         wrist.supervisor.reset()
     assert wrist.supervisor.mode is Mode.DISABLED
 

@@ -6,7 +6,6 @@ import math
 import sys
 from typing import Any
 
-from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
@@ -16,6 +15,7 @@ from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.simulated_joint import follow
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
+from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import Spec, declare
 from wrist_control.ros.qos import EVERY, LASTING, OUTPUT
 from wrist_control.ros.running import run
@@ -45,7 +45,7 @@ SPECS = [
 ]
 
 
-class JointSimulator(Node):
+class JointSimulator(GuardedNode):
     """Follows `joint_command` and publishes `joint_states`."""
 
     def __init__(self, **node_options: Any) -> None:

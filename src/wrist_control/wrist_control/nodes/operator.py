@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from geometry_msgs.msg import TwistStamped
-from rclpy.node import Node
+from rclpy.time import Time
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Header
 
@@ -24,6 +24,7 @@ from wrist_control.operating.pilot import Pilot
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
+from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import Spec, declare, watch
 from wrist_control.ros.qos import NEWEST, OUTPUT
 from wrist_control.ros.running import run
@@ -65,7 +66,7 @@ SPECS = [
 TRIPLES = ('constant_rates', 'joy_axes', 'joy_scales')
 
 
-class Operator(Node):
+class Operator(GuardedNode):
     """Publishes `cmd_vel`, and watches `wrist_status` as a person watches the hand."""
 
     def __init__(self, **node_options: Any) -> None:
@@ -130,7 +131,14 @@ class Operator(Node):
 
     def _tick(self) -> None:
         now = self.get_clock().now()
-        p, q, r = self._rates(convert.seconds_of(now.nanoseconds))
+        self._publish(now, self._rates(convert.seconds_of(now.nanoseconds)))
+
+    def wind_down(self) -> None:
+        """Ask for no motion: whoever follows need not wait for a timeout."""
+        self._publish(self.get_clock().now(), ZERO_RATES)
+
+    def _publish(self, now: Time, rates: Sequence[float]) -> None:
+        p, q, r = rates
         header = Header(stamp=now.to_msg(), frame_id=self._values['frame_id'])
         twist = convert.twist_message((0.0, 0.0, 0.0, p, q, r))
         self._publisher.publish(TwistStamped(header=header, twist=twist))

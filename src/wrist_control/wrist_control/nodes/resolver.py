@@ -3,28 +3,31 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable
 from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
-from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
+from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
 from wrist_control.errors import RefusedError, WristError
+from wrist_control.nodes.resolver_clock import StepClock
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
 from wrist_control.resolving.commands import CommandPolicy, ReceivedTwist
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import PeriodResult, Supervisor
+from wrist_control.resolving.supervisor import Mode, PeriodResult, Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
+from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import declare, watch
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
+from wrist_control.ros.shown import shown
 from wrist_control.ros.wrong_types import WrongTypes
 from wrist_control.wrists import WRISTS
 
@@ -42,7 +45,7 @@ TYPES = {
 }
 
 
-class Resolver(Node):
+class Resolver(GuardedNode):
     """Turns operator rates into joint commands for one wrist."""
 
     def __init__(self, wrist_name: str, **node_options: Any) -> None:
@@ -62,15 +65,13 @@ class Resolver(Node):
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
         self._result = self._supervisor.tick(stamp_time=0.0, receipt_time=0.0)
+        self._broken = False
         self._warned_unstamped = False
-        self._receipt_clock = Clock(clock_type=ClockType.STEADY_TIME)
-        if self.get_parameter('use_sim_time').value:
-            self._receipt_clock = self.get_clock()
         watch(self, wanted, self._check, self._apply)
         self._diagnostics = Diagnostics(self, self._health)
         self._wrong_types = WrongTypes(self, TYPES)
+        self._step_clock = StepClock(self, self._supervisor, self._step)
         self._listen()
-        self.create_timer(1.0 / self._values['rate'], self._tick)
 
     def _listen(self) -> None:
         self.create_subscription(TwistStamped, 'cmd_vel', self._on_stamped, NEWEST)
@@ -84,7 +85,7 @@ class Resolver(Node):
         if stamp is None and not self._warned_unstamped:
             self._warned_unstamped = True
             self.get_logger().warning('Commands on cmd_vel have no stamp; each counts as new.')
-        self._take('cmd_vel', message.twist, message.header.frame_id, stamp)
+        self._take('cmd_vel', message.twist, shown(message.header.frame_id), stamp)
 
     def _on_unstamped(self, message: Twist) -> None:
         self._take('cmd_vel_unstamped', message, '', None)
@@ -98,30 +99,33 @@ class Resolver(Node):
         try:
             command = policy.accept(
                 ReceivedTwist(convert.twist_values(twist), frame, stamp),
-                stamp_time=self._seconds(self.get_clock()),
-                receipt_time=self._seconds(self._receipt_clock),
+                stamp_time=self._step_clock.stamp_time(),
+                receipt_time=self._step_clock.receipt_time(),
             )
         except RefusedError as error:
             self._diagnostics.refuse(topic, error)
         else:
             self._supervisor.take_command(command)
+            self._step_clock.timing.hear('command', command.receipt, stamp)
 
     def _on_joint_states(self, message: JointState) -> None:
         prefix = self._values['joint_prefix']
         names = [name.removeprefix(prefix) for name in message.name]
+        now = self._step_clock.receipt_time()
         try:
-            self._supervisor.take_measured(
-                names, message.position, self._seconds(self._receipt_clock)
-            )
+            self._supervisor.take_measured(names, message.position, now)
         except (RefusedError, WristError) as error:
             refused = error if isinstance(error, RefusedError) else RefusedError('bad', str(error))
             self._diagnostics.refuse('joint_states', refused)
+        else:
+            self._step_clock.timing.hear('joint states', now)
 
     def _on_enable(self, request: SetBool.Request, answer: SetBool.Response) -> Any:
-        now = self._seconds(self._receipt_clock)
-        return self._answer(
-            answer, partial(self._supervisor.enable, request.data, receipt_time=now)
-        )
+        enable = partial(self._supervisor.enable, receipt_time=self._step_clock.receipt_time())
+        self._answer(answer, partial(enable, request.data))
+        if answer.success:
+            self.unexpected.clear()
+        return answer
 
     def _on_reset(self, _: Trigger.Request, answer: Trigger.Response) -> Any:
         return self._answer(answer, self._supervisor.reset)
@@ -136,13 +140,34 @@ class Resolver(Node):
             answer.message, answer.success = str(error), False
         return answer
 
-    def _tick(self) -> None:
-        now = self.get_clock().now()
-        self._result = self._supervisor.tick(
-            stamp_time=convert.seconds_of(now.nanoseconds),
-            receipt_time=self._seconds(self._receipt_clock),
-        )
-        self._outputs.publish(self._result, now.to_msg())
+    def _step(self, stamp: int) -> None:
+        try:
+            self._result = self._supervisor.tick(
+                stamp_time=convert.seconds_of(stamp), receipt_time=self._step_clock.receipt_time()
+            )
+            self._outputs.publish(self._result, Time(nanoseconds=stamp).to_msg())
+        except Exception as error:
+            if self._broken:  # the ramp cannot be computed either: a zero without one
+                self._outputs.zero()
+                self._supervisor.give_up(str(error))
+            self._broken = True
+            raise
+        self._broken = False
+
+    def on_unexpected(self, sentence: str) -> None:
+        """Ramp to a stop and be in FAULT."""
+        self._supervisor.stop(sentence, Mode.FAULT)
+
+    def wind_down(self) -> None:
+        """Ramp to a stop, whatever the clock does, and let only a zero stand at the end."""
+        self._supervisor.stop('Ending: the hand is ramped to a stop.', Mode.DISABLED)
+        period = 1.0 / self._values['rate']
+        try:
+            while self._result.moving_allowed:
+                time.sleep(period)
+                self._step_clock.step_by_steady_clock()
+        finally:
+            self._outputs.settle()
 
     def _check(self, changed: dict[str, Any]) -> None:
         values = {**self._values, **changed}
@@ -164,14 +189,13 @@ class Resolver(Node):
         level = LEVELS.get(result.wrist_state, OK)
         if result.wrist_state == WristState.WAITING:
             self.get_logger().warning(result.message, throttle_duration_sec=10.0)
+        distrusted, timing = self._step_clock.health()
+        values.update(timing)
+        level = max(level, WARN if distrusted else OK)
         for (publisher, topic), sentence in self._wrong_types.found.items():
             values[f'{publisher} on {topic}'] = sentence
             level = max(level, WARN)
         return level, result.message, values
-
-    @staticmethod
-    def _seconds(clock: Clock) -> float:
-        return convert.seconds_of(clock.now().nanoseconds)
 
 
 def main(wrist_name: str) -> None:

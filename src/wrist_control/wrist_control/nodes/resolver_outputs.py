@@ -8,6 +8,7 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, Vector3
+from rclpy.duration import Duration
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
@@ -22,6 +23,8 @@ from wrist_interfaces.msg import LimitAtWork, WristStatus
 
 # Pictures need not be drawn at the rate of the control loop.
 MARKERS_PER_SECOND = 20.0
+# So long whoever listens may take to acknowledge the last words before the node is gone.
+LAST_WORDS = Duration(seconds=0.2)
 
 
 class Outputs:
@@ -82,6 +85,18 @@ class Outputs:
                 )
             )
         self._count += 1
+
+    def settle(self) -> None:
+        """Leave a zero as the last velocity, and see it arrive."""
+        self.zero()
+        self._velocity.wait_for_all_acked(LAST_WORDS)
+
+    def zero(self) -> None:
+        """Leave a zero as the last velocity, even when no step can be made any more."""
+        if self._was_allowed:
+            zero = array.array('d', [0.0] * len(self._names))
+            self._velocity.publish(Float64MultiArray(data=zero))
+            self._was_allowed = False
 
     def _status_message(self, result: PeriodResult, stamp: Time) -> WristStatus:
         taken = result.step

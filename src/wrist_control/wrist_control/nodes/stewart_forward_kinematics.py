@@ -9,7 +9,6 @@ from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseWithCovariance, PoseWithCovarianceStamped, TwistStamped
-from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
@@ -23,6 +22,7 @@ from wrist_control.resolving.platform_observer import (
 )
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, WARN, Diagnostics
+from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import Spec, declare
 from wrist_control.ros.qos import NEWEST, OUTPUT
 from wrist_control.ros.running import run
@@ -61,7 +61,7 @@ UNKNOWN = -1.0
 NO_DATA = 'No leg lengths have come yet; is joint_states published, with leg_1 to leg_6 in it?'
 
 
-class StewartForwardKinematics(Node):
+class StewartForwardKinematics(GuardedNode):
     """Publishes the pose of the platform, and how much of it is proved.
 
     `platform_pose` and `platform_twist` are published for a CONVERGED answer only: whoever hears
@@ -98,7 +98,7 @@ class StewartForwardKinematics(Node):
             ForwardKinematicsStatus, 'forward_kinematics_status', OUTPUT
         )
         self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
-        self._waiting = self.create_timer(1.0, self._wait)
+        self._waiting = self.create_timer(1.0, self._wait, clock=self.steady)
 
     def _platform(self) -> Stewart:
         values = self._values

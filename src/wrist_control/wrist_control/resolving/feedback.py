@@ -28,11 +28,13 @@ class Feedback:
 
     Attributes:
         positions: The newest, rad or m; None before the first.
+        refused: Why there is no start from where they rest; empty when nobody has tried.
     """
 
     def __init__(self, joints: Sequence[Joint]) -> None:
         """Listen for some joints."""
         self.positions: tuple[float, ...] | None = None
+        self.refused = ''
         self._names = [joint.name for joint in joints]
         self._tremble = [TREMBLE[joint.kind] for joint in joints]
         self._receipt = -math.inf
@@ -61,7 +63,7 @@ class Feedback:
                 'rad (m) from 0.',
             )
         if not self._first or _excess(heard, self._first, self._tremble) > 0.0:
-            self._first, self._count_at_rest = heard, 0
+            self._first, self._count_at_rest, self.refused = heard, 0, ''
         self._count_at_rest += 1
         self.positions, self._receipt = heard, receipt_time
         return heard
@@ -81,6 +83,28 @@ class Feedback:
         if self.positions is None:
             return f'no joint_states of {names} were heard'
         return f'the last joint_states of {names} came {self.age(receipt_time):.2f} s ago'
+
+    def waiting_sentence(self, receipt_time: float, longest: float) -> str:
+        """Return what is waited for, and how to go on.
+
+        Args:
+            receipt_time: Now, s.
+            longest: Age up to which they are good enough to move by, s.
+        """
+        missing = self.what_is_missing(receipt_time)
+        if self.positions is None:
+            return (
+                f'Waiting: {missing}; start the joints, or set require_joint_states to false to '
+                'go on without.'
+            )
+        if self.age(receipt_time) > longest:
+            return f'Waiting: {missing}, and nothing moves without them; start the joints.'
+        return f'Waiting: {self.refused}' if self.refused else 'Waiting for the joints to rest.'
+
+    def blind_sentence(self, receipt_time: float) -> str:
+        """Return why a moving hand is stopped when the joints have fallen silent."""
+        missing = self.what_is_missing(receipt_time)
+        return f'Stopped, since {missing}: the hand would move unseen.'
 
     def forget_lag(self) -> None:
         """Watch anew whether the joints follow."""

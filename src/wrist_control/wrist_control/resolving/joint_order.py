@@ -6,6 +6,9 @@ from collections.abc import Sequence
 
 from wrist_control.errors import RefusedError
 
+# A whole robot has fewer joints than this; to look through more takes too long.
+MOST_JOINTS = 1000
+
 
 def in_joint_order(
     joints: Sequence[str], names: Sequence[str], values: Sequence[float]
@@ -20,8 +23,15 @@ def in_joint_order(
         values: One for each name; no need to be finite.
 
     Raises:
-        RefusedError: Not one value for each name, or a joint that is missing or named twice.
+        RefusedError: Too many names, not one value for each, or a joint that is missing or named
+            twice.
     """
+    if max(len(names), len(values)) > MOST_JOINTS:
+        raise RefusedError(
+            'too many joints',
+            f'There are {len(names)} joint names and {len(values)} values; at most {MOST_JOINTS} '
+            'are looked at.',
+        )
     if len(names) != len(values):
         raise RefusedError(
             'wrong length',

@@ -60,19 +60,3 @@ class Mode(Enum):
     HOMING = 'the reset'
     DISABLED = 'nobody: disabled'
     FAULT = 'nobody: a fault'
-
-
-class Ending(NamedTuple):
-    """The ramp to a stop that ends in another mode.
-
-    Attributes:
-        mode: What it ends in: DISABLED or FAULT.
-        message: Why, one sentence.
-        since: When it began, s of receipt time.
-        twist: What was commanded then, hand axes.
-    """
-
-    mode: Mode
-    message: str
-    since: float
-    twist: Twist

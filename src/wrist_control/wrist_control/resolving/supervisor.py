@@ -12,11 +12,12 @@ from contextlib import suppress
 from wrist_control.errors import InvalidValueError, WristError
 from wrist_control.resolving.commands import Command, freshness, hand_twist
 from wrist_control.resolving.feedback import Feedback, checked_start, state_at
-from wrist_control.resolving.homing import has_reached, step_towards
+from wrist_control.resolving.homing import has_reached, step_home
 from wrist_control.resolving.latest_message import LatestMessage
-from wrist_control.resolving.period import Ending, Mode, PeriodResult, SupervisorSettings
+from wrist_control.resolving.period import Mode, PeriodResult, SupervisorSettings
+from wrist_control.resolving.ramp import Ramp
 from wrist_control.resolving.report import WristState, sentence, state_of
-from wrist_control.resolving.step import ZERO_TWIST, State, resting, start, step
+from wrist_control.resolving.step import ZERO_TWIST, State, Twist, resting, start, step
 from wrist_control.wrists.wrist import Wrist
 
 # What clears a fault.
@@ -48,13 +49,38 @@ class Supervisor:
         self._commands: LatestMessage[Command] = LatestMessage()
         self._feedback = Feedback(wrist.joints)
         self._adopted = self._moving = False
-        self._ending: Ending | None = None
-        self._commanded = ZERO_TWIST
+        self._ramp: Ramp[Mode] | None = None
+        self._commanded: Twist = ZERO_TWIST
         self._reason = ''
 
     def take_command(self, command: Command) -> None:
         """Follow a command from the first step after its stamp; the newest counts."""
         self._commands.put(command.stamp, command)
+
+    @property
+    def stopping(self) -> bool:
+        """Whether a stop is on its way."""
+        return self._ramp is not None
+
+    def stop(self, message: str, then: Mode) -> None:
+        """Take the command away: ramp to a stop over `stop_time`, counted in steps.
+
+        Args:
+            message: What happens, one sentence; of a fault, its reason.
+            then: Who is in charge once the joints are at rest: FOLLOWING waits for new commands,
+                and a fault stays one.
+        """
+        if self.mode not in (Mode.FOLLOWING, Mode.HOMING):
+            if then is Mode.FAULT or (then is Mode.DISABLED and self.mode is Mode.WAITING):
+                self._settle(then, message)
+        elif self._ramp is None:
+            self._commands.clear()
+            if self._moving or self.mode is Mode.HOMING:
+                self._ramp = Ramp(1.0, then, message)
+            else:
+                self._settle(then, message)
+        elif self._ramp.then is not Mode.FAULT and then is not Mode.FOLLOWING:
+            self._ramp = self._ramp._replace(then=then, message=message)
 
     def take_measured(
         self, names: Sequence[str], positions: Sequence[float], receipt_time: float
@@ -75,11 +101,11 @@ class Supervisor:
         """
         measured = self._feedback.hear(names, positions, receipt_time)
         if self.mode in (Mode.FOLLOWING, Mode.HOMING):
-            self._watch(receipt_time)
+            self._watch()
         else:
             self._show(measured)
         if self.mode in (Mode.WAITING, Mode.FOLLOWING) and not self._adopted:
-            self._adopt_when_resting(measured, receipt_time)
+            self._adopt_when_resting(measured)
 
     def enable(self, wanted: bool, *, receipt_time: float) -> str:
         """Allow or forbid motion; after a pause go on from where the joints really are.
@@ -92,14 +118,12 @@ class Supervisor:
             WristError: The wrist cannot go on from there; nothing has changed.
         """
         if not wanted:
-            self._end(
-                Mode.DISABLED, f'Disabled: the hand stays where it is. {GO_ON}', receipt_time
-            )
+            self.stop('Disabled: the hand stays where it is.', Mode.DISABLED)
             return 'Disabled: the hand stays where it is.'
         if self.mode in (Mode.DISABLED, Mode.FAULT):
             self._take_over(receipt_time)
-        elif self._ending:
-            raise InvalidValueError('Cannot enable before the hand has stopped; call it again.')
+        elif self._ramp:
+            raise InvalidValueError('Cannot enable: coming to a stop; call ~/enable again then.')
         if self.mode is Mode.WAITING:
             return 'Enabled: commands are followed once the joints were heard.'
         return 'Enabled: following commands.'
@@ -131,9 +155,12 @@ class Supervisor:
             InvalidValueError: Nobody may move the joints now, or the limits have changed and the
                 initial positions cannot be used any more.
         """
-        if self._ending or self.mode not in (Mode.FOLLOWING, Mode.HOMING):
-            mode = self._ending.mode if self._ending else self.mode
-            raise InvalidValueError(f'Cannot reset: {mode.value} is in charge; enable first.')
+        if self._ramp:
+            raise InvalidValueError('Cannot reset: coming to a stop; call ~/reset again then.')
+        if self.mode not in (Mode.FOLLOWING, Mode.HOMING):
+            raise InvalidValueError(
+                f'Cannot reset: {self.mode.value} is in charge; call ~/enable first.'
+            )
         start(self.wrist, self.settings.initial_positions)
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
@@ -148,10 +175,10 @@ class Supervisor:
         try:
             if self.mode in (Mode.FOLLOWING, Mode.HOMING):
                 if self._moving and self._deaf(receipt_time):
-                    self._end(Mode.FAULT, self._blind(receipt_time), receipt_time)
+                    self.stop(self._feedback.blind_sentence(receipt_time), Mode.FAULT)
                 result = self._moved(stamp_time, receipt_time)
                 self._moving = any(result.step.joint_rates)
-                return self._ended(result) if self._ending else result
+                return self._ramped(result) if self._ramp else result
         except WristError as error:
             return self._fail(str(error))
         except ArithmeticError as error:
@@ -159,20 +186,20 @@ class Supervisor:
         return self._stand_still(receipt_time)
 
     def _moved(self, stamp_time: float, receipt_time: float) -> PeriodResult:
-        if self.mode is Mode.FOLLOWING and not self._ending:
+        if self._ramp:
+            self._ramp = self._ramp.after(self.settings.dt, self.settings.stop_time)
+            if self.mode is Mode.HOMING:
+                return self._home(self._ramp.share)
+            return self._step(self._ramp.of(self._commanded))
+        if self.mode is Mode.FOLLOWING:
             return self._follow(self._commands.at(stamp_time), receipt_time)
         if self._deaf(receipt_time) and not self._moving:
             return self._hold(receipt_time)
-        if self.mode is Mode.HOMING:
-            return self._home(self._ramp(receipt_time))
-        assert self._ending is not None
-        share = self._ramp(receipt_time)
-        return self._step([share * x for x in self._ending.twist])
+        return self._home(1.0)
 
     def _hold(self, receipt_time: float) -> PeriodResult:
-        return self._step(ZERO_TWIST)._replace(
-            wrist_state=WristState.WAITING, message=self._waiting(receipt_time)
-        )
+        message = self._feedback.waiting_sentence(receipt_time, self.settings.feedback_timeout)
+        return self._step(ZERO_TWIST)._replace(wrist_state=WristState.WAITING, message=message)
 
     def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:
         if command is None:
@@ -192,7 +219,9 @@ class Supervisor:
 
     def _step(self, commanded: Sequence[float]) -> PeriodResult:
         vx, vy, vz, p, q, r = commanded
-        self._commanded = twist = (vx, vy, vz, p, q, r)
+        twist = (vx, vy, vz, p, q, r)
+        if not self._ramp:  # what is ramped down is what was followed when the ramp began
+            self._commanded = twist
         taken = step(self.wrist, self.state, twist, self.settings.dt)
         self._adopted = self._adopted or any(taken.joint_rates)
         self.state = taken.state
@@ -200,15 +229,10 @@ class Supervisor:
         return PeriodResult(state_of(taken, twist), taken, twist, message, True)
 
     def _home(self, share: float) -> PeriodResult:
-        before, goal, dt = self.state, self.settings.initial_positions, self.settings.dt
-        if share > 0.0:
-            self.state = step_towards(self.wrist, before, goal, share * dt)
+        goal = self.settings.initial_positions
+        taken = step_home(self.wrist, self.state, goal, self.settings.dt, share)
+        self.state = taken.state
         self._adopted, self._commanded = True, ZERO_TWIST
-        rates = tuple(
-            (new - old) / dt
-            for old, new in zip(before.positions, self.state.positions, strict=True)
-        )
-        taken = resting(self.wrist, self.state)._replace(joint_rates=rates)
         if has_reached(self.state, goal):
             self.state = state_at(self.wrist, tuple(goal), self.state)._replace(time_lost=0.0)
             self.mode = Mode.FOLLOWING
@@ -216,82 +240,59 @@ class Supervisor:
         message = 'Resetting: on the way back to initial_positions; commands do not count now.'
         return PeriodResult(WristState.TRACKING, taken, ZERO_TWIST, message, True)
 
-    def _end(self, mode: Mode, message: str, receipt_time: float) -> None:
-        """Ramp to a stop, if anything moves, and go to another mode then; a fault stays one."""
-        if self.mode is Mode.FAULT or (self._ending and self._ending.mode is Mode.FAULT):
-            return
-        if self.mode in (Mode.FOLLOWING, Mode.HOMING) and self._moving:
-            self._ending = Ending(mode, message, receipt_time, self._commanded)
-        else:
-            self._settle(mode, message)
-
-    def _ramp(self, receipt_time: float) -> float:
-        if not self._ending:
-            return 1.0
-        return freshness(receipt_time - self._ending.since, 0.0, self.settings.stop_time)
-
-    def _ended(self, result: PeriodResult) -> PeriodResult:
-        assert self._ending is not None
-        mode, message, _, _ = self._ending
-        if not self._moving:
-            self._settle(mode, message)
-        return result._replace(wrist_state=WristState[mode.name], message=message)
+    def _ramped(self, result: PeriodResult) -> PeriodResult:
+        assert self._ramp is not None
+        share, then, message = self._ramp
+        if share == 0.0:  # with this step a zero is sent: now the joints may be let go
+            self._settle(then, message)
+        state = WristState.STALE if then is Mode.FOLLOWING else WristState[then.name]
+        return result._replace(wrist_state=state, message=message)
 
     def _settle(self, mode: Mode, message: str) -> None:
-        self.mode, self._reason, self._ending, self._moving = mode, message, None, False
+        self.mode, self._ramp, self._moving = mode, None, False
+        self._reason = f'{message} {GO_ON}'
+        self._commands.clear()
+
+    def give_up(self, reason: str) -> None:
+        """Be in FAULT at once, where not even a ramp can be computed."""
+        self._settle(Mode.FAULT, reason)
 
     def _fail(self, reason: str) -> PeriodResult:
-        self._settle(Mode.FAULT, f'{reason} {GO_ON}')
+        self.give_up(reason)
         return self._stand_still(0.0)
 
     def _stand_still(self, receipt_time: float) -> PeriodResult:
-        message = self._waiting(receipt_time) if self.mode is Mode.WAITING else self._reason
+        message, longest = self._reason, self.settings.feedback_timeout
+        if self.mode is Mode.WAITING:
+            message = self._feedback.waiting_sentence(receipt_time, longest)
         still = resting(self.wrist, self.state)
         return PeriodResult(WristState[self.mode.name], still, ZERO_TWIST, message, False)
 
-    def _waiting(self, receipt_time: float) -> str:
-        """Return what is waited for, and how to go on."""
-        missing = self._feedback.what_is_missing(receipt_time)
-        if self._feedback.positions is None:
-            return (
-                f'Waiting: {missing}; start the joints, or set require_joint_states to false to '
-                'go on without.'
-            )
-        if self._deaf(receipt_time):
-            return f'Waiting: {missing}, and nothing moves without them; start the joints.'
-        return self._reason or 'Waiting for the joints to rest.'
-
-    def _blind(self, receipt_time: float) -> str:
-        missing = self._feedback.what_is_missing(receipt_time)
-        return f'Stopped, since {missing}: the hand would move unseen. {GO_ON}'
-
     def _deaf(self, receipt_time: float) -> bool:
         """Return whether the joints were heard too long ago to move by."""
-        if not self.settings.require_joint_states:
-            return False
-        return self._feedback.age(receipt_time) > self.settings.feedback_timeout
+        late = self._feedback.age(receipt_time) > self.settings.feedback_timeout
+        return late and self.settings.require_joint_states
 
-    def _watch(self, receipt_time: float) -> None:
+    def _watch(self) -> None:
         found = self._feedback.joint_that_does_not_follow(
             self.state.positions, self.settings.tracking_tolerance, self.settings.tracking_time
         )
         if found:
-            self._end(Mode.FAULT, f'{found} {GO_ON}', receipt_time)
+            self.stop(found, Mode.FAULT)
 
     def _show(self, measured: Sequence[float]) -> None:
         with suppress(WristError):
             self.state = state_at(self.wrist, measured, self.state)
 
-    def _adopt_when_resting(self, measured: Sequence[float], receipt_time: float) -> None:
+    def _adopt_when_resting(self, measured: Sequence[float]) -> None:
         if not self._feedback.resting:
-            self._reason = ''
             return
         try:
             self.state = checked_start(self.wrist, measured, self.state)
         except WristError as error:
-            self._reason = f'Waiting: {error}'
+            self._feedback.refused = str(error)
             if self.mode is Mode.FOLLOWING:
-                self._end(Mode.FAULT, f'{error} {GO_ON}', receipt_time)
+                self.stop(str(error), Mode.FAULT)
             raise
         self._adopted, self.mode = True, Mode.FOLLOWING
         self._commands.clear()

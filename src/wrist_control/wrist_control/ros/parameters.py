@@ -12,6 +12,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from wrist_control.errors import InvalidValueError, WristError
+from wrist_control.ros.shown import shown
 
 Value = float | str | bool | list[float] | list[str]
 
@@ -91,7 +92,9 @@ def checked(spec: Spec, value: object) -> Any:
     if isinstance(spec.default, str):
         text = _as(str, spec, value)
         if spec.choices and text not in spec.choices:
-            raise InvalidValueError(f'{spec.name} is {text!r}; valid is {_valid(spec)}.')
+            raise InvalidValueError(
+                f'{spec.name} is {shown(repr(text))}; valid is {_valid(spec)}.'
+            )
         return text
     if isinstance(spec.default, list):
         values = list(value) if isinstance(value, (list, tuple, array.array)) else [value]
@@ -141,7 +144,7 @@ def _as(kind: type, spec: Spec, value: object) -> Any:
 
 
 def _wrong(spec: Spec, value: object) -> str:
-    return f'{spec.name} is {value!r}; valid is {_valid(spec)}: {spec.description}.'
+    return f'{spec.name} is {shown(repr(value))}; valid is {_valid(spec)}: {spec.description}.'
 
 
 def _valid(spec: Spec) -> str:

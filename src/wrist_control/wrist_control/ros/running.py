@@ -1,73 +1,110 @@
-"""Run one node until it is told to stop: SIGINT and SIGTERM end it cleanly with exit code 0."""
+"""Run one node until it is told to stop: SIGINT and SIGTERM bring it to rest, and end it with 0.
+
+ROS's own signal handlers take the context away at once, in the middle of whatever is going on,
+and nothing can be said any more. Here a signal only ends the spinning.
+"""
 
 from __future__ import annotations
 
 import gc
 import signal
+import socket
 import sys
+import threading
+import time
+import traceback
 from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
 import rclpy
-from rclpy._rclpy_pybind11 import RCLError
-from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from wrist_control.errors import WristError
+from wrist_control.ros.guarded import GuardedNode
 
 # The events executor of this release spins at full load when it waits without a limit.
 LONGEST_WAIT = 3600.0
+# An executor that raises so often, each time within so many s, will not work again.
+MOST_BREAKS, SOON = 10, 1.0
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
-def run(make_node: Callable[[], Node]) -> int:
+def run(make_node: Callable[[], GuardedNode]) -> int:
     """Make a node and spin it to its end.
 
     Args:
         make_node: Called once ROS is up.
 
     Returns:
-        The exit code: 0 after an ordinary stop, 2 when the node refuses its parameters.
+        The exit code: 0 after an ordinary stop, 1 after an error that nobody expected, 2 when the
+        node refuses its parameters.
     """
-    # While things are half made a signal would pull ROS away from under them: it has to wait.
-    signal.pthread_sigmask(signal.SIG_BLOCK, SIGNALS)
-    # rclpy's own handlers end the node; an exception at any moment would only get in their way.
-    signal.signal(signal.SIGINT, lambda *_: None)
-    rclpy.init(args=sys.argv)
+    told = _hear_signals()
+    rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
     try:
-        _spin(make_node())
+        _live(make_node(), told)
     except WristError as error:
         print(f'Cannot start: {error}', file=sys.stderr)
         return 2
-    except ExternalShutdownException:
-        pass
-    except RCLError:
-        if rclpy.ok():  # otherwise the end came in the middle of something
-            raise
+    except Exception:
+        traceback.print_exc()
+        return 1
     finally:
         rclpy.try_shutdown()
     return 0
 
 
-def _spin(node: Node) -> None:
-    def ready() -> None:
-        node.get_logger().info('Ready; Ctrl-C ends it.')
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
-
+def _live(node: GuardedNode, told: socket.socket) -> None:
+    ended: Future = Future()
     executor = make_executor(node)
     executor.add_node(node)
-    executor.create_task(ready)
+    executor.create_task(lambda: node.get_logger().info('Ready; Ctrl-C ends it.'))
     gc.collect()
     gc.freeze()  # what lives now lives to the end: it need not be looked at again
+    threading.Thread(target=_await_signal, args=(told, ended), daemon=True).start()
     try:
-        while rclpy.ok():
-            executor.spin_until_future_complete(Future(), timeout_sec=LONGEST_WAIT)
+        _spin(node, executor, ended)
     finally:
+        node.wind_down()
         executor.remove_node(node)
         executor.shutdown()
         node.destroy_node()
+
+
+def _spin(node: GuardedNode, executor: Executor, ended: Future) -> None:
+    """Spin to the end; what the executor itself raises is told, and only if it goes on ends it."""
+    breaks = 0
+    while rclpy.ok() and not ended.done():
+        began = time.monotonic()
+        try:
+            executor.spin_until_future_complete(ended, timeout_sec=LONGEST_WAIT)
+        except Exception as error:
+            breaks = breaks + 1 if time.monotonic() - began < SOON else 1
+            if breaks >= MOST_BREAKS:
+                raise
+            node.tell_unexpected('the executor', error)
+
+
+def _hear_signals() -> socket.socket:
+    """Turn signals, from now on, into bytes that can be read here: nothing is interrupted.
+
+    They cannot be blocked and waited for instead: libraries have made threads before.
+    """
+    told, tell = socket.socketpair()
+    tell.setblocking(False)
+    signal.set_wakeup_fd(tell.detach(), warn_on_full_buffer=False)
+    for number in SIGNALS:
+        signal.signal(number, lambda *_: None)
+    return told
+
+
+def _await_signal(told: socket.socket, ended: Future) -> None:
+    told.recv(1)
+    ended.set_result(None)
 
 
 def make_executor(node: Node) -> Executor:

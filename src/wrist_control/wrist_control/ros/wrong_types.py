@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rclpy.node import Node
+from wrist_control.ros.guarded import GuardedNode
+from wrist_control.ros.shown import shown
 
 
 class WrongTypes:
@@ -17,7 +18,7 @@ class WrongTypes:
         found: One sentence for each wrong publisher, by its name and topic.
     """
 
-    def __init__(self, node: Node, topics: Mapping[str, str]) -> None:
+    def __init__(self, node: GuardedNode, topics: Mapping[str, str]) -> None:
         """Watch some topics.
 
         Args:
@@ -27,15 +28,21 @@ class WrongTypes:
         self.found: dict[tuple[str, str], str] = {}
         self._node = node
         self._topics = {node.resolve_topic_name(topic): kind for topic, kind in topics.items()}
-        node.create_timer(1.0, self._look)
+        node.create_timer(1.0, self._look, clock=node.steady)
 
     def _look(self) -> None:
         for topic, kind in self._topics.items():
-            for publisher in self._node.get_publishers_info_by_topic(topic):
+            try:
+                publishers = self._node.get_publishers_info_by_topic(topic)
+            except UnicodeDecodeError:
+                self._name(topic, kind, 'somebody', 'a type whose name is not text')
+                continue
+            for publisher in publishers:
                 if publisher.topic_type != kind:
                     self._name(topic, kind, publisher.node_name, publisher.topic_type)
 
     def _name(self, topic: str, kind: str, node_name: str, wrong: str) -> None:
+        node_name, wrong = shown(node_name), shown(wrong)
         if (node_name, topic) in self.found:
             return
         sentence = (
