@@ -68,7 +68,7 @@ CHOSEN = tuple(
             'ends moving',
         ),
         ('ros/running.py', '        node.wind_down()', '        pass', 'moves on for ever'),
-        (SUPERVISOR, 'then, None, ZERO_TWIST', 'then, None, self._followed', 'moves again'),
+        (SUPERVISOR, 'mode, None, False', 'mode, None, True', 'a stop at rest is a ramp again'),
         ('ros/convert.py', '        return None\n', '        return 0.0\n', 'no stamp is too old'),
         ('resolving/commands.py', 'CLOCK_SKEW = 0.05', 'CLOCK_SKEW = 0.5', 'the future counts'),
         # Stopping.

@@ -6,6 +6,7 @@ import random
 import signal
 import subprocess
 import time
+from typing import ClassVar
 
 import pytest
 from geometry_msgs.msg import Twist
@@ -20,8 +21,18 @@ RAMP = 0.3
 NEVER_SAID = ('Traceback', 'FATAL', 'ERROR', 'terminate')
 
 
+@pytest.fixture(autouse=True)
+def nothing_stays():
+    """End the processes of a test that has failed before it could end them."""
+    yield
+    while Moving.processes:
+        Moving.processes.pop().kill()
+
+
 class Moving:
     """A resolver in a process of its own that turns the hand, and what it sends to the joints."""
+
+    processes: ClassVar[list[subprocess.Popen]] = []
 
     def __init__(self, graph, command, **parameters):
         self.graph = graph
@@ -31,7 +42,7 @@ class Moving:
         graph.outside.create_subscription(
             Float64MultiArray, 'joint_velocity_command', self._hear, best_effort
         )
-        given = {'stop_time': RAMP, **parameters}
+        given = {'stop_time': RAMP, 'require_joint_states': False, **parameters}
         self.process = subprocess.Popen(
             [*command, '--ros-args']
             + [part for name, value in given.items() for part in ('-p', f'{name}:={value}')],
@@ -39,6 +50,7 @@ class Moving:
             stderr=subprocess.PIPE,
             text=True,
         )
+        self.processes.append(self.process)
         self._commands = graph.publisher(Twist, 'cmd_vel_unstamped')
         twist = Twist()
         twist.angular.x = RATE

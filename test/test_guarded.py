@@ -127,6 +127,7 @@ def test_an_error_in_any_callback_ramps_the_hand_into_a_fault_that_enable_clears
     trigger(graph)
     turning.until_state(WristStatus.FAULT)
     assert 'of all things' in turning.statuses[-1].message
+    graph.until(lambda: turning.speeds()[-1] == 0.0)
     ramp = turning.speeds()
     down = ramp[len(ramp) - ramp[::-1].index(0.4) - 1 :]
     assert len([speed for speed in down if 0.0 < speed < 0.4]) >= 7

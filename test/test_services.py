@@ -102,4 +102,4 @@ def test_a_joint_that_does_not_follow_stops_the_hand(graph):
     publisher = graph.publisher(Twist, 'cmd_vel_unstamped')
     pitch_until(graph, publisher, lambda: statuses and statuses[-1].state == WristStatus.FAULT)
     assert 'theta' in statuses[-1].message
-    assert '~/enable' in statuses[-1].message
+    graph.until(lambda: '~/enable' in statuses[-1].message)
