@@ -127,6 +127,8 @@ class Operator(Node):
         return convert.seconds_of(self.get_clock().now().nanoseconds)
 
     def _tick(self) -> None:
+        if self._values['maneuver'] == 'hold':
+            return  # who only holds shall not keep others from leading the hand
         now = self.get_clock().now()
         p, q, r = self._rates(convert.seconds_of(now.nanoseconds))
         header = Header(stamp=now.to_msg(), frame_id=self._values['frame_id'])

@@ -8,16 +8,16 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
-from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
 from wrist_control.errors import RefusedError, WristError
+from wrist_control.nodes.resolver_inputs import Inputs
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
-from wrist_control.resolving.commands import CommandPolicy, ReceivedTwist
+from wrist_control.resolving.announcer import Announcer
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.supervisor import PeriodResult, Supervisor
 from wrist_control.ros import convert
@@ -38,6 +38,8 @@ TYPES = {
     'cmd_vel': 'geometry_msgs/msg/TwistStamped',
     'cmd_vel_unstamped': 'geometry_msgs/msg/Twist',
     'joint_states': 'sensor_msgs/msg/JointState',
+    'deadman': 'std_msgs/msg/Bool',
+    'stop': 'std_msgs/msg/Empty',
 }
 
 
@@ -60,50 +62,26 @@ class Resolver(Node):
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
-        self._result = self._supervisor.tick(stamp_time=0.0, receipt_time=0.0)
-        self._warned_unstamped = False
+        self._result = self._supervisor.tick(
+            stamp_time=0.0, receipt_time=0.0, withheld='Starting: no step was made yet.'
+        )
+        self._announcer = Announcer()
         self._receipt_clock = Clock(clock_type=ClockType.STEADY_TIME)
         if self.get_parameter('use_sim_time').value:
             self._receipt_clock = self.get_clock()
         watch(self, wanted, self._check, self._apply)
         self._diagnostics = Diagnostics(self, self._health)
         self._wrong_types = WrongTypes(self, TYPES)
+        self._inputs = Inputs(
+            self, self._values, self._supervisor, self._diagnostics, self._receipt_clock
+        )
         self._listen()
         self.create_timer(1.0 / self._values['rate'], self._tick)
 
     def _listen(self) -> None:
-        self.create_subscription(TwistStamped, 'cmd_vel', self._on_stamped, NEWEST)
-        self.create_subscription(Twist, 'cmd_vel_unstamped', self._on_unstamped, NEWEST)
         self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
         self.create_service(SetBool, '~/enable', self._on_enable)
         self.create_service(Trigger, '~/reset', self._on_reset)
-
-    def _on_stamped(self, message: TwistStamped) -> None:
-        stamp = convert.seconds(message.header.stamp)
-        if stamp is None and not self._warned_unstamped:
-            self._warned_unstamped = True
-            self.get_logger().warning('Commands on cmd_vel have no stamp; each counts as new.')
-        self._take('cmd_vel', message.twist, message.header.frame_id, stamp)
-
-    def _on_unstamped(self, message: Twist) -> None:
-        self._take('cmd_vel_unstamped', message, '', None)
-
-    def _take(self, topic: str, twist: Twist, frame: str, stamp: float | None) -> None:
-        policy = CommandPolicy(
-            self._values['command_timeout'],
-            self._values['hand_frame'],
-            self._values['forearm_frame'],
-        )
-        try:
-            command = policy.accept(
-                ReceivedTwist(convert.twist_values(twist), frame, stamp),
-                stamp_time=self._seconds(self.get_clock()),
-                receipt_time=self._seconds(self._receipt_clock),
-            )
-        except RefusedError as error:
-            self._diagnostics.refuse(topic, error)
-        else:
-            self._supervisor.take_command(command)
 
     def _on_joint_states(self, message: JointState) -> None:
         prefix = self._values['joint_prefix']
@@ -134,10 +112,15 @@ class Resolver(Node):
 
     def _tick(self) -> None:
         now = self.get_clock().now()
-        self._result = self._supervisor.tick(
+        receipt_time = self._seconds(self._receipt_clock)
+        result = self._supervisor.tick(
             stamp_time=convert.seconds_of(now.nanoseconds),
-            receipt_time=self._seconds(self._receipt_clock),
+            receipt_time=receipt_time,
+            withheld=self._inputs.withheld(),
         )
+        message = self._inputs.with_refused(result.message)
+        message = self._announcer.say(result.wrist_state, message, receipt_time)
+        self._result = result._replace(message=message)
         self._outputs.publish(self._result, now.to_msg())
 
     def _check(self, changed: dict[str, Any]) -> None:

@@ -88,6 +88,11 @@ def specs(wrist_name: str) -> list[Spec]:
         ),
         Spec('forearm_frame', 'forearm', 'Name of the frame that the wrist stands on'),
         Spec('hand_frame', 'hand', 'Name of the frame that turns'),
+        Spec(
+            'require_deadman',
+            False,
+            'Move only while the topic deadman says true, at least once in each command_timeout',
+        ),
         Spec('joint_prefix', '', 'Put before every joint name'),
     ]
 

@@ -14,6 +14,8 @@ from wrist_control.rotations import Quaternion, to_hand
 
 # Clocks of two machines may differ by this much, s; a stamp further ahead is refused.
 CLOCK_SKEW = 0.05
+# No hand is asked for more than this by anybody in earnest: m/s and rad/s.
+FASTEST_LINEAR, FASTEST_ANGULAR = 10.0, 100.0
 
 
 class ReceivedTwist(NamedTuple):
@@ -77,6 +79,12 @@ class CommandPolicy(NamedTuple):
             raise RefusedError(
                 'not finite',
                 f'Refused a command that is not finite: {tuple(twist)}; send numbers.',
+            )
+        if max(map(abs, twist[:3])) > FASTEST_LINEAR or max(map(abs, twist[3:])) > FASTEST_ANGULAR:
+            raise RefusedError(
+                'beyond belief',
+                f'Refused a command of {tuple(twist)}; send at most {FASTEST_LINEAR:g} m/s and '
+                f'{FASTEST_ANGULAR:g} rad/s about or along each axis.',
             )
         if frame not in ('', self.hand_frame, self.forearm_frame):
             raise RefusedError(

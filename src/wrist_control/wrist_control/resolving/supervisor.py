@@ -16,6 +16,7 @@ from wrist_control.resolving.commands import Command, freshness, hand_twist
 from wrist_control.resolving.homing import has_reached, step_towards
 from wrist_control.resolving.joint_order import in_joint_order
 from wrist_control.resolving.latest_message import LatestMessage
+from wrist_control.resolving.permission import Permission
 from wrist_control.resolving.report import WristState, sentence, state_of
 from wrist_control.resolving.step import ZERO_TWIST, State, Step, Twist, resting, start, step
 from wrist_control.wrists.wrist import Positions, Wrist
@@ -23,6 +24,11 @@ from wrist_control.wrists.wrist import Positions, Wrist
 # A joint may lag this far behind its command, rad and m, for this long, s.
 LAG = {'revolute': 0.35, 'prismatic': 0.02}
 LAG_TIME = 0.5
+DISABLED = 'Disabled: call ~/enable to go on from where the joints are.'
+STOPPING = 'Stopping: somebody sent a message on stop.'
+STOPPED = (
+    'Disabled: somebody sent a message on stop; call ~/enable to go on from where the joints are.'
+)
 
 
 class SupervisorSettings(NamedTuple):
@@ -93,6 +99,9 @@ class Supervisor:
         self._moved = False
         self._lagging_since: float | None = None
         self._fault = ''
+        self._permission = Permission()
+        self._stopping = False
+        self._disabled = DISABLED
 
     def take_command(self, command: Command) -> None:
         """Follow a command from the first step after its stamp; the newest counts."""
@@ -132,11 +141,13 @@ class Supervisor:
         """Allow or forbid motion; after a pause go on from where the joints really are.
 
         Raises:
-            WristError: The wrist cannot go on from there; it is in FAULT.
+            WristError: The wrist cannot go on from there; it is in FAULT. Or it is still stopping.
         """
         if not wanted:
-            self.mode = Mode.DISABLED
+            self.mode, self._disabled = Mode.DISABLED, DISABLED
             return 'Disabled: the joints stay where they are.'
+        if self._stopping:
+            raise InvalidValueError(f'{STOPPING} Call ~/enable again when it stands still.')
         if self.mode in (Mode.DISABLED, Mode.FAULT):
             self._commands.clear()
             self._lagging_since = None
@@ -149,6 +160,10 @@ class Supervisor:
                 raise
         self.mode = Mode.FOLLOWING
         return 'Enabled: following commands.'
+
+    def stop(self) -> None:
+        """Ramp to a stop and disable: whoever is in charge, and until somebody enables again."""
+        self._stopping = True
 
     def reset(self) -> str:
         """Go back to the initial positions at the rate limits.
@@ -165,26 +180,42 @@ class Supervisor:
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
-    def tick(self, *, stamp_time: float, receipt_time: float) -> PeriodResult:
+    def tick(self, *, stamp_time: float, receipt_time: float, withheld: str = '') -> PeriodResult:
         """Return what this period brings.
 
         Args:
             stamp_time: Now, s.
             receipt_time: Now, s.
+            withheld: Why the hand may not move now, one sentence; empty when it may.
         """
+        withheld = STOPPING if self._stopping else withheld
+        allowed = self._permission.share(bool(withheld), receipt_time, self.settings.stop_time)
+        self._finish_stop(allowed)
         try:
             if self.mode is Mode.HOMING:
-                return self._home()
-            if self.mode is Mode.FOLLOWING:
-                return self._follow(self._commands.at(stamp_time), receipt_time)
+                result = self._home(allowed)
+            elif self.mode is Mode.FOLLOWING:
+                result = self._follow(self._commands.at(stamp_time), receipt_time, allowed)
+            else:
+                return self._stand_still()
+            if withheld:
+                result = result._replace(wrist_state=WristState.STALE, message=withheld)
+            return result
         except WristError as error:
             return self._fail(str(error))
         except ArithmeticError as error:
             return self._fail(f'The step could not be computed ({error}); nothing moves.')
-        return self._stand_still()
 
-    def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:
-        commanded, fresh = self._commanded(command, receipt_time)
+    def _finish_stop(self, allowed: float) -> None:
+        moving = self.mode in (Mode.FOLLOWING, Mode.HOMING)
+        if self._stopping and moving and allowed == 0.0:
+            self.mode, self._disabled = Mode.DISABLED, STOPPED
+        self._stopping = self._stopping and self.mode in (Mode.FOLLOWING, Mode.HOMING)
+
+    def _follow(
+        self, command: Command | None, receipt_time: float, allowed: float
+    ) -> PeriodResult:
+        commanded, fresh = self._commanded(command, receipt_time, allowed)
         taken = step(self.wrist, self.state, commanded, self.settings.dt)
         self._moved = self._moved or any(taken.joint_rates)
         self.state = taken.state
@@ -194,17 +225,21 @@ class Supervisor:
         message = sentence(self.wrist, taken, commanded)
         return PeriodResult(state_of(taken, commanded), taken, commanded, message, True)
 
-    def _commanded(self, command: Command | None, receipt_time: float) -> tuple[Twist, float]:
+    def _commanded(
+        self, command: Command | None, receipt_time: float, allowed: float
+    ) -> tuple[Twist, float]:
         if command is None:
             return ZERO_TWIST, 0.0
         age = receipt_time - command.receipt
         fresh = freshness(age, self.settings.command_timeout, self.settings.stop_time)
         vx, vy, vz, p, q, r = hand_twist(command, self.state.pose.quaternion)
-        return (fresh * vx, fresh * vy, fresh * vz, fresh * p, fresh * q, fresh * r), fresh
+        share = min(fresh, allowed)
+        return (share * vx, share * vy, share * vz, share * p, share * q, share * r), fresh
 
-    def _home(self) -> PeriodResult:
+    def _home(self, allowed: float) -> PeriodResult:
         before, goal, dt = self.state, self.settings.initial_positions, self.settings.dt
-        self.state = step_towards(self.wrist, before, goal, dt)
+        if allowed > 0.0:
+            self.state = step_towards(self.wrist, before, goal, allowed * dt)
         self._moved = True
         rates = tuple(
             (new - old) / dt
@@ -223,8 +258,7 @@ class Supervisor:
         resting_step = resting(self.wrist, self.state)
         if self.mode is Mode.FAULT:
             return PeriodResult(WristState.FAULT, resting_step, ZERO_TWIST, self._fault, False)
-        message = 'Disabled: call ~/enable to go on from where the joints are.'
-        return PeriodResult(WristState.DISABLED, resting_step, ZERO_TWIST, message, False)
+        return PeriodResult(WristState.DISABLED, resting_step, ZERO_TWIST, self._disabled, False)
 
     def _fail(self, reason: str) -> PeriodResult:
         self.mode = Mode.FAULT

@@ -8,3 +8,5 @@ OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 # Positions may come in a burst: each is where to be at its own stamp.
 EVERY = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+# What must not be lost is asked for again.
+EVERY_RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
