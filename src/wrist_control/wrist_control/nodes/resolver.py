@@ -3,26 +3,34 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.service import Service
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
 from wrist_control.errors import RefusedError, WristError
 from wrist_control.nodes.resolver_inputs import Inputs
 from wrist_control.nodes.resolver_outputs import Outputs
-from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
+from wrist_control.nodes.resolver_settings import (
+    check_ceilings,
+    limited,
+    mechanism,
+    settings,
+    specs,
+)
 from wrist_control.resolving.announcer import Announcer
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.supervisor import PeriodResult, Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
 from wrist_control.ros.parameters import declare, watch
+from wrist_control.ros.polled_services import PolledServices
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
 from wrist_control.ros.wrong_types import WrongTypes
@@ -59,6 +67,7 @@ class Resolver(Node):
         super().__init__(f'{wrist_name}_resolver', **node_options)
         wanted = specs(wrist_name)
         self._values = declare(self, wanted)
+        self._started = dict(self._values)
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
@@ -76,7 +85,13 @@ class Resolver(Node):
             self, self._values, self._supervisor, self._diagnostics, self._receipt_clock
         )
         self._listen()
+        PolledServices(self, list(super().services))
         self.create_timer(1.0 / self._values['rate'], self._tick)
+
+    @property
+    def services(self) -> Iterator[Service]:
+        """Return what an executor shall serve of them: none, for they are polled."""
+        return iter(())
 
     def _listen(self) -> None:
         self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
@@ -124,6 +139,7 @@ class Resolver(Node):
         self._outputs.publish(self._result, now.to_msg())
 
     def _check(self, changed: dict[str, Any]) -> None:
+        check_ceilings(self._supervisor.wrist, self._started, changed)
         limited(self._supervisor.wrist, {**self._values, **changed})
 
     def _apply(self, changed: dict[str, Any]) -> None:

@@ -6,9 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.supervisor import SupervisorSettings
 from wrist_control.ros.parameters import Spec
 from wrist_control.wrists import Wrist, wrist_class
+from wrist_control.wrists.joint import broadcast_to_joints
 
 # What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.
 CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
@@ -108,6 +110,35 @@ def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
         lower=values['joint_lower_limits'],
         upper=values['joint_upper_limits'],
     )
+
+
+def check_ceilings(wrist: Wrist, started: Mapping[str, Any], changed: Mapping[str, Any]) -> None:
+    """Let a live limit only narrow what the node was started with: that is the ceiling.
+
+    Every parameter whose name ends in _limits is one: a lower limit may rise, others may fall.
+
+    Args:
+        wrist: For its joints.
+        started: The values that the node was started with.
+        changed: The new values, by name.
+
+    Raises:
+        InvalidValueError: A limit would be wider than at the start.
+    """
+    joints = [joint.name for joint in wrist.joints]
+    for name in changed:
+        if not name.endswith('_limits'):
+            continue
+        is_lower = name.endswith('_lower_limits')
+        ceilings = broadcast_to_joints(name, started[name], joints)
+        wanted = broadcast_to_joints(name, changed[name], joints)
+        for joint, ceiling, value in zip(joints, ceilings, wanted, strict=True):
+            if value < ceiling if is_lower else value > ceiling:
+                raise InvalidValueError(
+                    f'{name} is {value:g} for {joint}; while the node runs valid is '
+                    f'{"at least" if is_lower else "at most"} {ceiling:g}, as it was started: '
+                    'start it again with another limit.'
+                )
 
 
 def settings(wrist: Wrist, values: Mapping[str, Any]) -> SupervisorSettings:
