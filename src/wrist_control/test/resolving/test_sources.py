@@ -172,3 +172,15 @@ def test_with_a_third_of_the_messages_lost_the_one_that_sends_is_followed(chance
     else:
         assert set(found) <= {'', 'not certain whose'}
     assert not sources.mixed(PERIOD * 200)
+
+
+def test_many_gaps_beside_an_idle_publisher_still_leave_every_number_in_a_row():
+    sources, number = led(last=100, publishers=2), 100
+    for index in range(20):
+        now = 2 * PERIOD * index
+        number += 2
+        assert reason(sources, now + PERIOD, number, publishers=2) == 'not certain whose'
+        number += 3
+        assert reason(sources, now + 1.5 * PERIOD, number, publishers=2) == 'not certain whose'
+        number += 1
+        assert reason(sources, now + 2 * PERIOD, number, publishers=2) == ''

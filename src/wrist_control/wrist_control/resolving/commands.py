@@ -98,17 +98,30 @@ class CommandPolicy(NamedTuple):
         return Command(tuple(twist), in_forearm, stamp, receipt_time)
 
     def _check_age(self, age: float) -> None:
-        if age < -CLOCK_SKEW:
-            raise RefusedError(
-                'stamp in the future',
-                f'Refused a command stamped {-age:.3f} s in the future; synchronise the clocks.',
-            )
+        check_not_ahead('command', -age)
         if age > self.timeout:
             raise RefusedError(
                 'too old',
                 f'Refused a command {age:.3f} s old; at most {self.timeout:g} s '
                 '(command_timeout) counts.',
             )
+
+
+def check_not_ahead(what: str, ahead: float) -> None:
+    """Refuse what is stamped further in the future than clocks may differ.
+
+    Args:
+        what: What kind of message it is, in a word.
+        ahead: By how much its stamp is in the future, s.
+
+    Raises:
+        RefusedError: It is too far ahead.
+    """
+    if ahead > CLOCK_SKEW:
+        raise RefusedError(
+            'stamp in the future',
+            f'Refused a {what} stamped {ahead:.3f} s in the future; synchronise the clocks.',
+        )
 
 
 def hand_twist(command: Command, orientation: Quaternion) -> tuple[float, ...]:

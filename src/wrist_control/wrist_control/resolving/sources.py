@@ -51,7 +51,7 @@ class Trail(NamedTuple):
         number: The last number.
         sent: When that was sent, ns.
         heard: When that came, s of receipt time.
-        proofs: How many numbers in a row, at most PROVED; each gap takes one away.
+        proofs: How many numbers in a row, at most PROVED; a gap takes one of those away.
     """
 
     topic: str
@@ -124,7 +124,7 @@ class Sources:
         step = 0 if origin.number is None else origin.number - leader.number
         forward = step > 0 and origin.sent >= leader.sent
         if forward and (origin.alone or step <= NEAR):
-            proofs = leader.proofs + 1 if step == 1 else max(1, leader.proofs - 1)
+            proofs = leader.proofs + 1 if step == 1 else min(leader.proofs, PROVED - 1)
             proofs = PROVED if origin.alone else min(proofs, PROVED)
             return Trail(leader.topic, leader.number + step, origin.sent, receipt_time, proofs)
         if not origin.alone and abs(step) <= NEAR:
