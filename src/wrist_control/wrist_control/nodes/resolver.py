@@ -11,6 +11,7 @@ from typing import Any
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.service import Service
+from rclpy.subscription import Subscription
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
@@ -64,6 +65,7 @@ class Resolver(Node):
         Raises:
             WristError: A parameter cannot be used; the sentence says why.
         """
+        self._hidden: list[Subscription] = []
         super().__init__(f'{wrist_name}_resolver', **node_options)
         wanted = specs(wrist_name)
         self._values = declare(self, wanted)
@@ -82,7 +84,12 @@ class Resolver(Node):
         self._diagnostics = Diagnostics(self, self._health)
         self._wrong_types = WrongTypes(self, TYPES)
         self._inputs = Inputs(
-            self, self._values, self._supervisor, self._diagnostics, self._receipt_clock
+            self,
+            self._values,
+            self._supervisor,
+            self._diagnostics,
+            self._receipt_clock,
+            self._hidden,
         )
         self._listen()
         PolledServices(self, list(super().services))
@@ -92,6 +99,11 @@ class Resolver(Node):
     def services(self) -> Iterator[Service]:
         """Return what an executor shall serve of them: none, for they are polled."""
         return iter(())
+
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        """Return what an executor shall serve of them: not those that are waited for otherwise."""
+        return (each for each in super().subscriptions if each not in self._hidden)
 
     def _listen(self) -> None:
         self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)

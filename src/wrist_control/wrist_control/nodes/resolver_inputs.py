@@ -9,6 +9,7 @@ from typing import Any
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.clock import Clock
 from rclpy.node import Node
+from rclpy.subscription import Subscription
 from std_msgs.msg import Bool, Empty
 
 from wrist_control.errors import RefusedError
@@ -19,6 +20,7 @@ from wrist_control.resolving.stamp_order import StampOrder
 from wrist_control.resolving.supervisor import Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import Diagnostics
+from wrist_control.ros.informed import Informed
 from wrist_control.ros.publishers import Publishers
 from wrist_control.ros.qos import EVERY, EVERY_RELIABLE, NEWEST
 
@@ -33,6 +35,7 @@ class Inputs:
         supervisor: Supervisor,
         diagnostics: Diagnostics,
         receipt_clock: Clock,
+        hidden: list[Subscription],
     ) -> None:
         """Start listening.
 
@@ -42,7 +45,9 @@ class Inputs:
             supervisor: Told of every command that counts.
             diagnostics: Told of every other.
             receipt_clock: The clock that ages are judged by.
+            hidden: Filled with the subscriptions that no executor may see.
         """
+        self._hidden = hidden
         self._node, self._values = node, values
         self._supervisor, self._diagnostics = supervisor, diagnostics
         self._receipt_clock = receipt_clock
@@ -91,12 +96,11 @@ class Inputs:
     ) -> None:
         """Hear a topic, each message with where it comes from."""
 
-        def on_message(message: Any, info: dict[str, Any]) -> None:
+        def on_message(message: Any, info: dict[str, Any], publishers: int) -> None:
             number, sent = info['publication_sequence_number'], info['source_timestamp']
-            alive = subscription.get_publisher_count()
-            heard(message, Origin(topic, number, sent, alive))
+            heard(message, Origin(topic, number, sent, publishers))
 
-        subscription = self._node.create_subscription(kind, topic, on_message, qos)
+        self._hidden.append(Informed(self._node, kind, topic, on_message, qos).subscription)
 
     def _on_stamped(self, message: TwistStamped, origin: Origin) -> None:
         stamp = convert.seconds(message.header.stamp)
