@@ -26,6 +26,7 @@ class Chosen(NamedTuple):
 
 NODE, SETTINGS = 'nodes/resolver.py', 'nodes/resolver_settings.py'
 OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
+INPUTS = 'nodes/resolver_inputs.py'
 SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
 SEARCH, FEEDBACK = 'resolving/search.py', 'resolving/feedback.py'
 JOYSTICK = 'operating/joystick.py'
@@ -47,14 +48,32 @@ CHOSEN = tuple(
         (NODE, 'self._supervisor.settings = settings(', 'settings(', 'live timeouts are dead'),
         (SETTINGS, "values['command_timeout']", '0.25', 'the hand runs on for another time'),
         (SETTINGS, "values['stop_time']", '0.1', 'the ramp to a stop takes another time'),
-        (NODE, "self._values['command_timeout'],", f'{FIRST},', 'old commands count, or new not'),
+        (
+            INPUTS,
+            "timeout = self._values['command_timeout']",
+            f'timeout = {FIRST}',
+            'old commands count, or new not',
+        ),
         (NODE, 'self._supervisor.wrist = limited(', 'limited(', 'live limits are dead'),
         (OPERATOR, 'self._check, self._values.update)', 'self._check, bool)', 'no live rates'),
         # Clocks: a system clock that is set must not keep the hand moving.
         (CLOCK, STEADY, 'return self.stamp_time()', 'no stop in silence'),
-        (NODE, f'{RECEIPT},\n            )', 'receipt_time=0.0,\n            )', 'ages'),
-        (NODE, f'(stamp), {RECEIPT}', '(stamp), receipt_time=0.0', 'ages'),
-        (NODE, 'now = self._step_clock.receipt_time()', 'now = 0.0', 'no fault'),
+        (
+            INPUTS,
+            'stamp_time, now = self._clock.stamp_time(), self._clock.receipt_time()',
+            'stamp_time, now = self._clock.stamp_time(), 0.0',
+            'a command is old as soon as it comes',
+        ),
+        (NODE, f'{RECEIPT},\n                    withheld', 'receipt_time=0.0, withheld', 'ages'),
+        (
+            NODE,
+            'now = self._step_clock.receipt_time()\n        try:',
+            'now = 0.0\n        try:',
+            'joint states are old as soon as they come',
+        ),
+        (NODE, 'withheld=self._inputs.withheld(),', '', 'moves without the dead-man switch'),
+        (INPUTS, 'self._sources.admit(origin, now, timeout)', 'pass', 'two operators shake it'),
+        (INPUTS, 'self._on_stop, qos)', 'print, qos)', 'a stop is not heard'),
         (CLOCK, 'if self._watch.look(now, steady):', 'if False:', 'moves without a clock'),
         (CLOCK, 'if self._watch.stands and', 'if False and', 'moves without a clock'),
         (CLOCK, 'if self.timing.is_due(now):', 'if True:', 'too fast by stamp'),
@@ -160,7 +179,12 @@ CHOSEN = tuple(
             'if False:',
             'the hand moves without the dead-man button',
         ),
-        (JOYSTICK, 'max(0.0, abs(value) - self.deadzone)', 'abs(value)', 'a stick at rest creeps'),
+        (
+            JOYSTICK,
+            'max(0.0, min(1.0, abs(value)) - self.deadzone)',
+            'abs(value)',
+            'a stick at rest creeps',
+        ),
         (JOYSTICK, ' or receipt_time - self._heard > self.timeout', '', 'a lost stick drives on'),
         (
             JOYSTICK,

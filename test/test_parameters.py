@@ -1,6 +1,7 @@
 """Every parameter is described, ranged and checked; a bad value gets one sentence."""
 
 import math
+import re
 
 import pytest
 import rclpy
@@ -110,6 +111,33 @@ def test_a_limit_can_change_while_the_node_runs_and_a_bad_one_changes_nothing(gr
     crossed = changed(graph, joint_upper_limits=[-math.inf])
     assert not crossed.successful
     assert 'cross' in crossed.reason
+
+
+@pytest.mark.parametrize(
+    ('name', 'narrower', 'wider', 'valid'),
+    [
+        ('joint_rate_limits', [0.2], [0.6, 0.5, 0.5], '0.6 for psi; .* valid is at most 0.5'),
+        ('joint_lower_limits', [-0.5], [-0.9, -1.1, -0.9], '-1.1 for theta; .* at least -1,'),
+        ('joint_upper_limits', [0.5], [math.inf], 'inf for psi; .* valid is at most 1,'),
+    ],
+)
+def test_what_it_was_started_with_is_the_ceiling_of_a_live_limit(
+    graph, name, narrower, wider, valid
+):
+    started = {
+        'joint_rate_limits': [0.5],
+        'joint_lower_limits': [-1.0],
+        'joint_upper_limits': [1.0],
+    }
+    node = graph.start(Resolver, 'three_gimbal', **started)
+    for _ in range(2):
+        assert changed(graph, **{name: narrower}).successful
+        refused = changed(graph, **{name: wider})
+        assert not refused.successful
+        assert re.search(f'{name} is {valid}', refused.reason)
+        assert refused.reason.endswith('start it again with another limit.')
+        assert list(node.get_parameter(name).value) == narrower
+        assert changed(graph, **{name: started[name]}).successful
 
 
 def test_what_must_not_change_while_the_node_runs_does_not(graph):

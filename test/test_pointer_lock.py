@@ -46,7 +46,7 @@ def test_yaw_is_lost_there_and_nothing_moves(flown):
     assert [(limit.joint, limit.kind) for limit in status.limits] == [
         ('lock', LimitAtWork.SINGULARITY)
     ]
-    assert 'cannot turn about its axis (0.00, 1.00, 0.00)' in status.message
+    assert 'cannot turn about its axis (0.0, 1.0, 0.0)' in status.message
     assert not any(any(command.velocity) for command in commands)
 
 

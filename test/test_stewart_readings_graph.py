@@ -140,3 +140,17 @@ def test_diagnostics_say_when_no_pose_has_come_for_long(graph):
     watched.begin()
     graph.until(lambda: watched.part(': state').message.startswith('No good pose for'))
     assert watched.part(': state').level == DiagnosticStatus.WARN
+
+
+def test_a_reading_from_the_future_is_refused_and_blocks_no_other(graph):
+    watched = Watched(graph)
+    now = graph.outside.get_clock().now().nanoseconds * 1e-9
+    watched.stamp = now - 5.0
+    poses, _ = watched.begin()
+    watched.stamp = graph.outside.get_clock().now().nanoseconds * 1e-9
+    watched.status_of(HOME, after=-0.1)
+    watched.send(HOME, after=0.9)
+    assert 'synchronise the clocks' in watched.refused('stamp in the future')
+    watched.stamp -= 0.75
+    assert watched.status_of(HOME, after=0.0).status == ForwardKinematicsStatus.CONVERGED
+    assert len(watched.poses) == poses + 2

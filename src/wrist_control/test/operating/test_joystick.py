@@ -18,6 +18,11 @@ def test_full_deflection_gives_the_scales():
     assert JOYSTICK.rates([-1.0, -1.0, 0.0, -1.0], PRESSED) == (1.0, -0.5, -2.0)
 
 
+@given(st.floats(1.0, 1e300))
+def test_more_than_full_deflection_is_full_deflection(value):
+    assert JOYSTICK.rates([value, -value, 0.0, value], PRESSED) == (-1.0, -0.5, 2.0)
+
+
 def test_nothing_moves_while_the_enable_button_is_not_held():
     assert JOYSTICK.rates([1.0, 1.0, 1.0, 1.0], (1, 1, 0)) == (0.0, 0.0, 0.0)
 

@@ -19,8 +19,8 @@ from wrist_control.resolving.commands import (
 from wrist_control.rotations import about_z, direction_cosines, unit
 
 TWIST = (1.0, 2.0, 3.0, 0.1, 0.2, 0.3)
-finite = st.floats(-1e3, 1e3)
-twists = st.tuples(*(finite,) * 6)
+linear, angular = st.floats(-10.0, 10.0), st.floats(-100.0, 100.0)
+twists = st.tuples(*(linear,) * 3, *(angular,) * 3)
 
 
 def offered(
@@ -45,6 +45,16 @@ def test_a_command_with_one_value_that_is_not_finite_is_refused(bad, index):
         offered(twist)
     assert refused.value.reason == 'not finite'
     assert isinstance(refused.value, WristError)
+
+
+@pytest.mark.parametrize('sign', [1.0, -1.0])
+@pytest.mark.parametrize('index', range(6))
+def test_what_nobody_asks_for_in_earnest_is_refused(index, sign):
+    most = sign * (10.0 if index < 3 else 100.0)
+    assert offered([*TWIST[:index], most, *TWIST[index + 1 :]]).twist[index] == most
+    with pytest.raises(RefusedError, match='send at most 10 m/s and 100 rad/s') as refused:
+        offered([*TWIST[:index], 1.001 * most, *TWIST[index + 1 :]])
+    assert refused.value.reason == 'beyond belief'
 
 
 def test_a_command_in_an_unknown_frame_is_refused_and_told_which_are_known():

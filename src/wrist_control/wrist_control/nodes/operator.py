@@ -130,6 +130,8 @@ class Operator(GuardedNode):
         return convert.seconds_of(self.get_clock().now().nanoseconds)
 
     def _tick(self) -> None:
+        if self._values['maneuver'] == 'hold':
+            return  # who only holds shall not keep others from leading the hand
         now = self.get_clock().now()
         self._publish(now, self._rates(convert.seconds_of(now.nanoseconds)))
 

@@ -4,30 +4,38 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
-from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.service import Service
+from rclpy.subscription import Subscription
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool, Trigger
 
 from wrist_control.errors import RefusedError, WristError
 from wrist_control.nodes.resolver_clock import StepClock
+from wrist_control.nodes.resolver_inputs import Inputs
 from wrist_control.nodes.resolver_outputs import Outputs
-from wrist_control.nodes.resolver_settings import limited, mechanism, settings, specs
-from wrist_control.resolving.commands import CommandPolicy, ReceivedTwist
+from wrist_control.nodes.resolver_settings import (
+    check_ceilings,
+    limited,
+    mechanism,
+    settings,
+    specs,
+)
+from wrist_control.resolving.announcer import Announcer
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.supervisor import Mode, PeriodResult, Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import declare, watch
+from wrist_control.ros.polled_services import PolledServices
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
-from wrist_control.ros.shown import shown
 from wrist_control.ros.wrong_types import WrongTypes
 from wrist_control.wrists import WRISTS
 
@@ -42,6 +50,8 @@ TYPES = {
     'cmd_vel': 'geometry_msgs/msg/TwistStamped',
     'cmd_vel_unstamped': 'geometry_msgs/msg/Twist',
     'joint_states': 'sensor_msgs/msg/JointState',
+    'deadman': 'std_msgs/msg/Bool',
+    'stop': 'std_msgs/msg/Empty',
 }
 
 
@@ -58,55 +68,45 @@ class Resolver(GuardedNode):
         Raises:
             WristError: A parameter cannot be used; the sentence says why.
         """
+        self._hidden: list[Subscription] = []
         super().__init__(f'{wrist_name}_resolver', **node_options)
         wanted = specs(wrist_name)
         self._values = declare(self, wanted)
+        self._started = dict(self._values)
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
-        self._result = self._supervisor.tick(stamp_time=0.0, receipt_time=0.0)
+        self._result = self._supervisor.tick(
+            stamp_time=0.0, receipt_time=0.0, withheld='Starting: no step was made yet.'
+        )
+        self._announcer = Announcer()
         self._broken = False
-        self._warned_unstamped = False
         watch(self, wanted, self._check, self._apply)
         self._diagnostics = Diagnostics(self, self._health)
         self._wrong_types = WrongTypes(self, TYPES)
         self._step_clock = StepClock(self, self._supervisor, self._step)
-        self._listen()
-
-    def _listen(self) -> None:
-        self.create_subscription(TwistStamped, 'cmd_vel', self._on_stamped, NEWEST)
-        self.create_subscription(Twist, 'cmd_vel_unstamped', self._on_unstamped, NEWEST)
+        self._inputs = Inputs(
+            self,
+            self._values,
+            self._supervisor,
+            self._diagnostics,
+            self._step_clock,
+            self._hidden,
+        )
         self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
         self.create_service(SetBool, '~/enable', self._on_enable)
         self.create_service(Trigger, '~/reset', self._on_reset)
+        PolledServices(self, list(super().services))
 
-    def _on_stamped(self, message: TwistStamped) -> None:
-        stamp = convert.seconds(message.header.stamp)
-        if stamp is None and not self._warned_unstamped:
-            self._warned_unstamped = True
-            self.get_logger().warning('Commands on cmd_vel have no stamp; each counts as new.')
-        self._take('cmd_vel', message.twist, shown(message.header.frame_id), stamp)
+    @property
+    def services(self) -> Iterator[Service]:
+        """Return what an executor shall serve of them: none, for they are polled."""
+        return iter(())
 
-    def _on_unstamped(self, message: Twist) -> None:
-        self._take('cmd_vel_unstamped', message, '', None)
-
-    def _take(self, topic: str, twist: Twist, frame: str, stamp: float | None) -> None:
-        policy = CommandPolicy(
-            self._values['command_timeout'],
-            self._values['hand_frame'],
-            self._values['forearm_frame'],
-        )
-        try:
-            command = policy.accept(
-                ReceivedTwist(convert.twist_values(twist), frame, stamp),
-                stamp_time=self._step_clock.stamp_time(),
-                receipt_time=self._step_clock.receipt_time(),
-            )
-        except RefusedError as error:
-            self._diagnostics.refuse(topic, error)
-        else:
-            self._supervisor.take_command(command)
-            self._step_clock.timing.hear('command', command.receipt, stamp)
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        """Return what an executor shall serve of them: not those that are waited for otherwise."""
+        return (each for each in super().subscriptions if each not in self._hidden)
 
     def _on_joint_states(self, message: JointState) -> None:
         prefix = self._values['joint_prefix']
@@ -142,8 +142,12 @@ class Resolver(GuardedNode):
 
     def _step(self, stamp: int) -> None:
         try:
-            self._result = self._supervisor.tick(
-                stamp_time=convert.seconds_of(stamp), receipt_time=self._step_clock.receipt_time()
+            self._result = self._announced(
+                self._supervisor.tick(
+                    stamp_time=convert.seconds_of(stamp),
+                    receipt_time=self._step_clock.receipt_time(),
+                    withheld=self._inputs.withheld(),
+                )
             )
             self._outputs.publish(self._result, Time(nanoseconds=stamp).to_msg())
         except Exception as error:
@@ -153,6 +157,11 @@ class Resolver(GuardedNode):
             self._broken = True
             raise
         self._broken = False
+
+    def _announced(self, result: PeriodResult) -> PeriodResult:
+        message = self._inputs.with_refused(result.message)
+        now = self._step_clock.receipt_time()
+        return result._replace(message=self._announcer.say(result.wrist_state, message, now))
 
     def on_unexpected(self, sentence: str) -> None:
         """Ramp to a stop and be in FAULT."""
@@ -170,6 +179,7 @@ class Resolver(GuardedNode):
             self._outputs.settle()
 
     def _check(self, changed: dict[str, Any]) -> None:
+        check_ceilings(self._supervisor.wrist, self._started, changed)
         values = {**self._values, **changed}
         settings(limited(self._supervisor.wrist, values), values)
 

@@ -14,6 +14,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 from visualization_msgs.msg import MarkerArray
 
+from wrist_control.resolving.announcer import SteadyAxis
 from wrist_control.resolving.supervisor import PeriodResult
 from wrist_control.ros import convert
 from wrist_control.ros.markers import wrist_markers
@@ -44,6 +45,7 @@ class Outputs:
         self._every = max(1, round(values['rate'] / MARKERS_PER_SECOND))
         self._count = 0
         self._was_allowed = False
+        self._lost_axis = SteadyAxis()
         self._command = node.create_publisher(JointState, 'joint_command', OUTPUT)
         self._velocity = node.create_publisher(Float64MultiArray, 'joint_velocity_command', OUTPUT)
         self._pose = node.create_publisher(PoseStamped, 'hand_pose', OUTPUT)
@@ -100,7 +102,7 @@ class Outputs:
 
     def _status_message(self, result: PeriodResult, stamp: Time) -> WristStatus:
         taken = result.step
-        x, y, z = self._wrist.lost_axis(taken.state.positions)
+        x, y, z = self._lost_axis.turned(self._wrist.lost_axis(taken.state.positions))
         return WristStatus(
             header=Header(stamp=stamp, frame_id=self._hand),
             state=int(result.wrist_state),
@@ -114,8 +116,8 @@ class Outputs:
                 LimitAtWork(
                     joint=limit.joint,
                     kind=int(limit.kind),
-                    asked=limit.asked,
-                    allowed=limit.allowed,
+                    asked=convert.finite(limit.asked),
+                    allowed=convert.finite(limit.allowed),
                 )
                 for limit in taken.limits
             ],

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.supervisor import SupervisorSettings
 from wrist_control.ros.parameters import Spec
 from wrist_control.wrists import Wrist, wrist_class
@@ -114,6 +115,11 @@ def specs(wrist_name: str) -> list[Spec]:
         Spec('tracking_time', 0.25, 'How long it may be, then FAULT', 's', 0.0, 10.0, live=True),
         Spec('forearm_frame', 'forearm', 'Name of the frame that the wrist stands on'),
         Spec('hand_frame', 'hand', 'Name of the frame that turns'),
+        Spec(
+            'require_deadman',
+            False,
+            'Move only while the topic deadman says true, at least once in each command_timeout',
+        ),
         Spec('joint_prefix', '', 'Put before every joint name'),
     ]
 
@@ -129,6 +135,35 @@ def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
         lower=values['joint_lower_limits'],
         upper=values['joint_upper_limits'],
     )
+
+
+def check_ceilings(wrist: Wrist, started: Mapping[str, Any], changed: Mapping[str, Any]) -> None:
+    """Let a live limit only narrow what the node was started with: that is the ceiling.
+
+    Every parameter whose name ends in _limits is one: a lower limit may rise, others may fall.
+
+    Args:
+        wrist: For its joints.
+        started: The values that the node was started with.
+        changed: The new values, by name.
+
+    Raises:
+        InvalidValueError: A limit would be wider than at the start.
+    """
+    joints = [joint.name for joint in wrist.joints]
+    for name in changed:
+        if not name.endswith('_limits'):
+            continue
+        is_lower = name.endswith('_lower_limits')
+        ceilings = broadcast_to_joints(name, started[name], joints)
+        wanted = broadcast_to_joints(name, changed[name], joints)
+        for joint, ceiling, value in zip(joints, ceilings, wanted, strict=True):
+            if value < ceiling if is_lower else value > ceiling:
+                raise InvalidValueError(
+                    f'{name} is {value:g} for {joint}; while the node runs valid is '
+                    f'{"at least" if is_lower else "at most"} {ceiling:g}, as it was started: '
+                    'start it again with another limit.'
+                )
 
 
 def settings(wrist: Wrist, values: Mapping[str, Any]) -> SupervisorSettings:

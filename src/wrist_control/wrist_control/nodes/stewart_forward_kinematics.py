@@ -14,6 +14,7 @@ from std_msgs.msg import Header
 
 from wrist_control.errors import RefusedError
 from wrist_control.nodes.resolver_settings import mechanism, mechanism_specs
+from wrist_control.resolving.commands import check_not_ahead
 from wrist_control.resolving.platform_observer import (
     Observed,
     Observer,
@@ -117,7 +118,9 @@ class StewartForwardKinematics(GuardedNode):
         if convert.seconds(stamp) is None:
             stamp = self.get_clock().now().to_msg()
         seconds = convert.seconds_of(stamp.sec * 10**9 + stamp.nanosec)
+        ahead = seconds - convert.seconds_of(self.get_clock().now().nanoseconds)
         try:
+            check_not_ahead('reading', ahead)
             observed = self._observer.take(message.name, message.position, seconds)
         except RefusedError as error:
             self._refuse(error)

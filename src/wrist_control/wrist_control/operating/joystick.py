@@ -50,7 +50,8 @@ class Joystick(NamedTuple):
         return (p, q, r)
 
     def _deflection(self, value: float) -> float:
-        beyond = max(0.0, abs(value) - self.deadzone) / (1.0 - self.deadzone)
+        # A driver that is not calibrated may say more than full deflection.
+        beyond = max(0.0, min(1.0, abs(value)) - self.deadzone) / (1.0 - self.deadzone)
         return beyond if value > 0.0 else -beyond
 
 

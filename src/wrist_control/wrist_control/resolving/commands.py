@@ -14,6 +14,8 @@ from wrist_control.rotations import Quaternion, to_hand
 
 # Clocks of two machines may differ by this much, s; a stamp further ahead is refused.
 CLOCK_SKEW = 0.05
+# No hand is asked for more than this by anybody in earnest: m/s and rad/s.
+FASTEST_LINEAR, FASTEST_ANGULAR = 10.0, 100.0
 
 
 class ReceivedTwist(NamedTuple):
@@ -78,6 +80,12 @@ class CommandPolicy(NamedTuple):
                 'not finite',
                 f'Refused a command that is not finite: {tuple(twist)}; send numbers.',
             )
+        if max(map(abs, twist[:3])) > FASTEST_LINEAR or max(map(abs, twist[3:])) > FASTEST_ANGULAR:
+            raise RefusedError(
+                'beyond belief',
+                f'Refused a command of {tuple(twist)}; send at most {FASTEST_LINEAR:g} m/s and '
+                f'{FASTEST_ANGULAR:g} rad/s about or along each axis.',
+            )
         if frame not in ('', self.hand_frame, self.forearm_frame):
             raise RefusedError(
                 'unknown frame',
@@ -90,17 +98,30 @@ class CommandPolicy(NamedTuple):
         return Command(tuple(twist), in_forearm, stamp, receipt_time)
 
     def _check_age(self, age: float) -> None:
-        if age < -CLOCK_SKEW:
-            raise RefusedError(
-                'stamp in the future',
-                f'Refused a command stamped {-age:.3f} s in the future; synchronise the clocks.',
-            )
+        check_not_ahead('command', -age)
         if age > self.timeout:
             raise RefusedError(
                 'too old',
                 f'Refused a command {age:.3f} s old; at most {self.timeout:g} s '
                 '(command_timeout) counts.',
             )
+
+
+def check_not_ahead(what: str, ahead: float) -> None:
+    """Refuse what is stamped further in the future than clocks may differ.
+
+    Args:
+        what: What kind of message it is, in a word.
+        ahead: By how much its stamp is in the future, s.
+
+    Raises:
+        RefusedError: It is too far ahead.
+    """
+    if ahead > CLOCK_SKEW:
+        raise RefusedError(
+            'stamp in the future',
+            f'Refused a {what} stamped {ahead:.3f} s in the future; synchronise the clocks.',
+        )
 
 
 def hand_twist(command: Command, orientation: Quaternion) -> tuple[float, ...]:

@@ -55,18 +55,17 @@ def sentence(wrist: Wrist, step: Step, commanded: Sequence[float]) -> str:
 
 
 def _singular(wrist: Wrist, step: Step) -> str:
-    x, y, z = wrist.lost_axis(step.state.positions)
-    lost = f'In lock: the hand cannot turn about its axis ({x:.2f}, {y:.2f}, {z:.2f})'
+    lost = f'In lock: the hand cannot turn about its axis {_axis(wrist, step)}'
     if all(limit.kind != LimitKind.SINGULARITY for limit in step.limits):
         return (
-            f'{lost}; the joints are turning into place at {step.scale_factor:.0%} of the '
+            f'{lost}; the joints are turning into place at {_coarse(step.scale_factor)} of the '
             'command: keep on, or reverse to back out.'
         )
     if step.scale_factor == 0.0:
         return f'{lost}, and no motion of the joints helps; turn it about another axis.'
     return (
         f'{lost} and leaves that part of the command out; the rest is followed at '
-        f'{step.scale_factor:.0%}.'
+        f'{_coarse(step.scale_factor)}.'
     )
 
 
@@ -93,10 +92,10 @@ def _nothing_possible(wrist: Wrist) -> str:
 
 def _scaled(wrist: Wrist, limits: Sequence[LimitAtWork], factor: float) -> str:
     worst = min(limits, key=lambda limit: limit.share)
-    unit = _unit(wrist, worst)
+    asked, allowed = _number(worst.asked, 1), _number(worst.allowed, 2)
     return (
-        f'Slowed to {factor:.0%}: {worst.joint} would need {abs(worst.asked):.3g} {unit}/s and '
-        f'may do {abs(worst.allowed):.3g}; ask for less, or turn another way.'
+        f'Slowed to {_coarse(factor)}: {worst.joint} would need {asked} {_unit(wrist, worst)}/s '
+        f'and may do {allowed}; ask for less, or turn another way.'
     )
 
 
@@ -110,6 +109,24 @@ def _tracking(wrist: Wrist, step: Step, commanded: Sequence[float]) -> str:
         'Following the part of the command that this mechanism can do; the rest is missing from '
         'the achieved rates.'
     )
+
+
+def _coarse(share: float) -> str:
+    """Return a share in words that do not change from step to step; fields have it exactly."""
+    return f'about {5 * round(20.0 * share)}%' if share >= 0.05 else 'less than 5%'
+
+
+def _number(value: float, digits: int) -> str:
+    """Return the size of a value to few digits, without an exponent where it can be."""
+    return f'{float(f"{abs(value):.{digits}g}"):g}'
+
+
+def _axis(wrist: Wrist, step: Step) -> str:
+    """Return the lost axis, of its two signs the one whose largest component is positive."""
+    axis = wrist.lost_axis(step.state.positions)
+    sign = -1.0 if max(axis, key=abs) < 0.0 else 1.0
+    # Adding 0 makes 0 of -0.
+    return '(' + ', '.join(f'{round(sign * a, 1) + 0.0:.1f}' for a in axis) + ')'
 
 
 def _unit(wrist: Wrist, limit: LimitAtWork) -> str:

@@ -15,12 +15,12 @@ from wrist_control.resolving.feedback import Feedback, checked_start, state_at
 from wrist_control.resolving.homing import has_reached, step_home
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.period import Mode, PeriodResult, SupervisorSettings
+from wrist_control.resolving.permission import Permission
 from wrist_control.resolving.ramp import Ramp
 from wrist_control.resolving.report import WristState, sentence, state_of
 from wrist_control.resolving.step import ZERO_TWIST, State, Twist, resting, start, step
 from wrist_control.wrists.wrist import Wrist
 
-# What clears a fault.
 GO_ON = 'Call ~/enable to go on from where the joints are.'
 
 __all__ = ['Mode', 'PeriodResult', 'Supervisor', 'SupervisorSettings']
@@ -52,6 +52,7 @@ class Supervisor:
         self._ramp: Ramp[Mode] | None = None
         self._commanded: Twist = ZERO_TWIST
         self._reason = ''
+        self._permission = Permission()
 
     def take_command(self, command: Command) -> None:
         """Follow a command from the first step after its stamp; the newest counts."""
@@ -60,7 +61,7 @@ class Supervisor:
     @property
     def stopping(self) -> bool:
         """Whether a stop is on its way."""
-        return self._ramp is not None
+        return bool(self._ramp)
 
     def stop(self, message: str, then: Mode) -> None:
         """Take the command away: ramp to a stop over `stop_time`, counted in steps.
@@ -101,9 +102,13 @@ class Supervisor:
         """
         measured = self._feedback.hear(names, positions, receipt_time)
         if self.mode in (Mode.FOLLOWING, Mode.HOMING):
-            self._watch()
+            tolerance, longest = self.settings.tracking_tolerance, self.settings.tracking_time
+            told = self.state.positions
+            if found := self._feedback.joint_that_does_not_follow(told, tolerance, longest):
+                self.stop(found, Mode.FAULT)
         else:
-            self._show(measured)
+            with suppress(WristError):
+                self.state = state_at(self.wrist, measured, self.state)
         if self.mode in (Mode.WAITING, Mode.FOLLOWING) and not self._adopted:
             self._adopt_when_resting(measured)
 
@@ -165,43 +170,47 @@ class Supervisor:
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
-    def tick(self, *, stamp_time: float, receipt_time: float) -> PeriodResult:
+    def tick(self, *, stamp_time: float, receipt_time: float, withheld: str = '') -> PeriodResult:
         """Return what this period brings.
 
         Args:
             stamp_time: Now, s.
             receipt_time: Now, s.
+            withheld: Why the hand may not move now, one sentence; empty when it may.
         """
+        allowed = self._permission.share(bool(withheld), receipt_time, self.settings.stop_time)
         try:
             if self.mode in (Mode.FOLLOWING, Mode.HOMING):
                 if self._moving and self._deaf(receipt_time):
                     self.stop(self._feedback.blind_sentence(receipt_time), Mode.FAULT)
-                result = self._moved(stamp_time, receipt_time)
+                result = self._moved(stamp_time, receipt_time, allowed)
                 self._moving = any(result.step.joint_rates)
-                return self._ramped(result) if self._ramp else result
+                return self._ramped(result) if self._ramp else _withheld(result, withheld)
         except WristError as error:
-            return self._fail(str(error))
+            return self.give_up(str(error))
         except ArithmeticError as error:
-            return self._fail(f'The step could not be computed ({error}); nothing moves.')
+            return self.give_up(f'The step could not be computed ({error}); nothing moves.')
         return self._stand_still(receipt_time)
 
-    def _moved(self, stamp_time: float, receipt_time: float) -> PeriodResult:
+    def _moved(self, stamp_time: float, receipt_time: float, allowed: float) -> PeriodResult:
         if self._ramp:
             self._ramp = self._ramp.after(self.settings.dt, self.settings.stop_time)
             if self.mode is Mode.HOMING:
                 return self._home(self._ramp.share)
             return self._step(self._ramp.of(self._commanded))
         if self.mode is Mode.FOLLOWING:
-            return self._follow(self._commands.at(stamp_time), receipt_time)
+            return self._follow(self._commands.at(stamp_time), receipt_time, allowed)
         if self._deaf(receipt_time) and not self._moving:
             return self._hold(receipt_time)
-        return self._home(1.0)
+        return self._home(allowed)
 
     def _hold(self, receipt_time: float) -> PeriodResult:
         message = self._feedback.waiting_sentence(receipt_time, self.settings.feedback_timeout)
         return self._step(ZERO_TWIST)._replace(wrist_state=WristState.WAITING, message=message)
 
-    def _follow(self, command: Command | None, receipt_time: float) -> PeriodResult:
+    def _follow(
+        self, command: Command | None, receipt_time: float, allowed: float
+    ) -> PeriodResult:
         if command is None:
             return self._step(ZERO_TWIST)
         settings = self.settings
@@ -209,7 +218,8 @@ class Supervisor:
         fresh = freshness(age, settings.command_timeout, settings.stop_time)
         if fresh and any(command.twist) and self._deaf(receipt_time) and not self._moving:
             return self._hold(receipt_time)
-        result = self._step([fresh * x for x in hand_twist(command, self.state.pose.quaternion)])
+        share = min(fresh, allowed)
+        result = self._step([share * x for x in hand_twist(command, self.state.pose.quaternion)])
         if fresh < 1.0 and any(command.twist):
             return result._replace(
                 wrist_state=WristState.STALE,
@@ -253,12 +263,9 @@ class Supervisor:
         self._reason = f'{message} {GO_ON}'
         self._commands.clear()
 
-    def give_up(self, reason: str) -> None:
+    def give_up(self, reason: str) -> PeriodResult:
         """Be in FAULT at once, where not even a ramp can be computed."""
         self._settle(Mode.FAULT, reason)
-
-    def _fail(self, reason: str) -> PeriodResult:
-        self.give_up(reason)
         return self._stand_still(0.0)
 
     def _stand_still(self, receipt_time: float) -> PeriodResult:
@@ -270,19 +277,8 @@ class Supervisor:
 
     def _deaf(self, receipt_time: float) -> bool:
         """Return whether the joints were heard too long ago to move by."""
-        late = self._feedback.age(receipt_time) > self.settings.feedback_timeout
-        return late and self.settings.require_joint_states
-
-    def _watch(self) -> None:
-        found = self._feedback.joint_that_does_not_follow(
-            self.state.positions, self.settings.tracking_tolerance, self.settings.tracking_time
-        )
-        if found:
-            self.stop(found, Mode.FAULT)
-
-    def _show(self, measured: Sequence[float]) -> None:
-        with suppress(WristError):
-            self.state = state_at(self.wrist, measured, self.state)
+        age, settings = self._feedback.age(receipt_time), self.settings
+        return settings.require_joint_states and age > settings.feedback_timeout
 
     def _adopt_when_resting(self, measured: Sequence[float]) -> None:
         if not self._feedback.resting:
@@ -296,3 +292,7 @@ class Supervisor:
             raise
         self._adopted, self.mode = True, Mode.FOLLOWING
         self._commands.clear()
+
+
+def _withheld(result: PeriodResult, why: str) -> PeriodResult:
+    return result._replace(wrist_state=WristState.STALE, message=why) if why else result

@@ -12,6 +12,9 @@ from std_msgs.msg import Header
 
 from wrist_control.rotations import Pose, xyzw
 
+# In place of what has no bound: JSON, and whoever plots it, know no infinity.
+LARGEST = 1e9
+
 
 def seconds(stamp: Time) -> float | None:
     """Return a stamp in s, None when it is zero and so says nothing."""
@@ -23,6 +26,11 @@ def seconds(stamp: Time) -> float | None:
 def seconds_of(nanoseconds: int) -> float:
     """Return a time in s: equal times give equal floats, whatever they came as."""
     return 1e-9 * nanoseconds
+
+
+def finite(value: float) -> float:
+    """Return a value that every reader understands: what has no bound is LARGEST."""
+    return max(-LARGEST, min(LARGEST, value))
 
 
 def twist_values(twist: Twist) -> tuple[float, float, float, float, float, float]:

@@ -82,20 +82,28 @@ class GuardedNode(Node):
         self, msg_type: Any, topic: str, callback: Any, qos_profile: Any, **options: Any
     ) -> Any:
         """Listen to messages that are not too large; the callback is guarded."""
+        # Raw, so that a message is measured before any time is spent on it.
+        return super().create_subscription(
+            msg_type,
+            topic,
+            self.unpacking(msg_type, topic, callback),
+            qos_profile,
+            raw=True,
+            **options,
+        )
 
-        def unpack(data: bytes) -> None:
+    def unpacking(self, kind: Any, topic: str, callback: Any) -> Any:
+        """Return a guarded callback of raw messages: those not too large are unpacked."""
+
+        def unpack(data: bytes, *more: Any) -> None:
             try:
-                message = _unpacked(data, msg_type)
+                message = _unpacked(data, kind)
             except RefusedError as error:
                 self.on_refused(topic, error)
             else:
-                callback(message)
+                callback(message, *more)
 
-        # Raw, so that a message is measured before any time is spent on it.
-        guarded = self._guard(unpack, f'topic {topic}')
-        return super().create_subscription(
-            msg_type, topic, guarded, qos_profile, raw=True, **options
-        )
+        return self._guard(unpack, f'topic {topic}')
 
     def create_service(self, srv_type: Any, srv_name: str, callback: Any, **options: Any) -> Any:
         """Offer a service whose callback is guarded: it answers why it could not do it."""

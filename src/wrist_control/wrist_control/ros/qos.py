@@ -14,3 +14,5 @@ LASTING = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
+# What must not be lost is asked for again.
+EVERY_RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
