@@ -49,10 +49,8 @@ def test_what_falls_off_only_at_the_end_does_not_stop_the_platform():
     assert 0.8 < made.scale_factor < 1.0
 
 
-@pytest.mark.parametrize(
-    ('name', 'size', 'further'), [('stewart', 1.0, 1.3), ('carpal', 3.0, 1.02)]
-)
-def test_no_command_of_a_second_is_stopped_that_could_go_a_part_of_the_way(name, size, further):
+@pytest.mark.parametrize(('name', 'size'), [('stewart', 1.0), ('carpal', 3.0)])
+def test_no_command_of_a_second_is_stopped_that_could_go_a_part_of_the_way(name, size):
     wrist = make_wrist(name)
     rng = np.random.default_rng(1)
     for _ in range(150):
@@ -60,6 +58,15 @@ def test_no_command_of_a_second_is_stopped_that_could_go_a_part_of_the_way(name,
         twist *= size / np.linalg.norm(twist)
         made = step(wrist, start(wrist), twist.tolist(), 1.0)
         assert made.scale_factor > 0.01
+
+
+def test_the_carpal_wrist_goes_as_far_as_it_can_in_one_step():
+    wrist = make_wrist('carpal')
+    rng = np.random.default_rng(1)
+    for _ in range(150):
+        twist = rng.normal(size=3)
+        twist *= 3.0 / np.linalg.norm(twist)
+        made = step(wrist, start(wrist), twist.tolist(), 1.0)
         if made.scale_factor < 1.0:
-            more = step(wrist, start(wrist), (further * made.scale_factor * twist).tolist(), 1.0)
+            more = step(wrist, start(wrist), (1.02 * made.scale_factor * twist).tolist(), 1.0)
             assert more.scale_factor < 1.0
