@@ -146,7 +146,7 @@ def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
         return resting(wrist, state)
     margin = wrist.margin(state.positions)
     asked = twist[-wrist.twist_size :]
-    if not any(asked[component] for component in wrist.followed_components):
+    if not any(map(asked.__getitem__, wrist.followed_components)):
         return _nothing_possible(wrist, state, twist)
     if margin < SINGULAR_MARGIN:
         return _step_at_lock(wrist, state, asked, dt, margin)
@@ -273,7 +273,8 @@ def _step_between(
     joint_rates = tuple(
         [(new - old) / dt for old, new in zip(before.positions, after.positions, strict=True)]
     )
-    state = after._replace(time_lost=before.time_lost + (1.0 - factor) * dt)
+    lost = before.time_lost + (1.0 - factor) * dt
+    state = State(after.positions, after.pose, after.steering_state, lost)
     achieved = _twist_between(before.pose, after.pose, dt)
     return Step(state, joint_rates, factor, margin, singular, tuple(limits), achieved)
 

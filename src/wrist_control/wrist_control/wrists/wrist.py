@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import ClassVar, Literal, NamedTuple, TypeAlias, TypeVar, overload
 
 import numpy as np
@@ -137,7 +138,7 @@ class Wrist(ABC):
         """Joint positions to start from when nothing else is asked for; 0 unless overridden."""
         return (0.0,) * len(self.joints)
 
-    @property
+    @cached_property
     def followed_components(self) -> tuple[int, ...]:
         """The components of a command that it can follow, as indices; the rest is forced."""
         linear = self.twist_size - 3
