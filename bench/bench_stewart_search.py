@@ -35,6 +35,7 @@ PLATFORMS = general.scaled(WRIST.platform, WRIST.base, WRIST.size)
 
 
 def by_chance(lengths: tuple[float, ...], rng: np.random.Generator) -> list[Pose]:
+    """Return the poses that random starts find for lengths."""
     goal, found = general.squares(PLATFORMS, lengths), []
     for _ in range(STARTS):
         x, y = rng.uniform(-0.2, 0.2, 2).tolist()
@@ -52,6 +53,7 @@ def on_homes_side(poses: Sequence[Pose]) -> int:
 
 
 def row(box: str, shift: float, turn: float, n: int) -> list[str]:
+    """Return one row of the table: what the search and chance find in a box of poses."""
     rng = np.random.default_rng(3)
     above: Counter[int] = Counter()
     searched = chance = missed = several = 0
@@ -79,6 +81,7 @@ def row(box: str, shift: float, turn: float, n: int) -> list[str]:
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
+    """Compare the search with chance, and show the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--n', type=int, default=400, help='poses for each box')
     n = parser.parse_args(arguments).n

@@ -85,22 +85,22 @@ def in_pointer_lock(**changes):
     return one._replace(state=one.state._replace(positions=(1.5707963267948966, 0.0))), pointer
 
 
-def test_a_pointer_in_lock_says_that_its_axis_stays_lost():
-    one, pointer = in_pointer_lock(scale_factor=0.0)
-    assert told(one, (0.0, 1.0, 0.0), pointer) == (
-        WristState.SINGULAR,
-        'In lock: the hand cannot turn about its axis (0.0, 1.0, 0.0), and no motion of the '
-        'joints helps; turn it about another axis.',
-    )
-
-
-def test_a_pointer_in_lock_says_which_part_it_follows():
-    one, pointer = in_pointer_lock(scale_factor=0.5)
-    assert told(one, (1.0, 1.0, 0.0), pointer) == (
-        WristState.SINGULAR,
-        'In lock: the hand cannot turn about its axis (0.0, 1.0, 0.0) and leaves that part of '
-        'the command out; the rest is followed at about 50%.',
-    )
+@pytest.mark.parametrize(
+    ('factor', 'command', 'rest'),
+    [
+        (0.0, (0.0, 1.0, 0.0), ', and no motion of the joints helps; turn it about another axis.'),
+        (
+            0.5,
+            (1.0, 1.0, 0.0),
+            ' and leaves that part of the command out; the rest is followed at about 50%.',
+        ),
+    ],
+)
+def test_a_pointer_in_lock_says_which_axis_is_lost_and_what_is_left(factor, command, rest):
+    one, pointer = in_pointer_lock(scale_factor=factor)
+    state, message = told(one, command, pointer)
+    assert state == WristState.SINGULAR
+    assert message == f'In lock: the hand cannot turn about its axis (0.0, 1.0, 0.0){rest}'
 
 
 def test_a_pointer_in_lock_and_at_a_limit_names_the_limit():

@@ -41,26 +41,29 @@ def test_enabling_what_is_enabled_does_not_stop_the_hand(timed):
     assert timed.tick().commanded == ROLL
 
 
+def stuck(timed, periods):
+    """Return the mode after each period in which the joints stay at the start."""
+    modes = []
+    for _ in range(periods):
+        timed.measure(START)
+        timed.tick()
+        modes.append(timed.supervisor.mode)
+    return modes
+
+
 def test_a_lag_from_before_a_fault_does_not_count_after_it(clocked):
     timed = clocked(WRIST, command_timeout=LONG)
     timed.rest(START)
     timed.command(FAST)
     timed.tick()
-    for _ in range(45):
-        timed.measure(START)
-        timed.tick()
+    stuck(timed, 45)
     assert timed.supervisor.mode is Mode.FAULT
     timed.rest(START)
     timed.enable(True)
     timed.command(FAST)
     timed.tick()
-    for _ in range(20):
-        timed.measure(START)
-        timed.tick()
-        assert timed.supervisor.mode is Mode.FOLLOWING
-    for _ in range(25):
-        timed.measure(START)
-        timed.tick()
+    assert set(stuck(timed, 20)) == {Mode.FOLLOWING}
+    stuck(timed, 25)
     assert timed.supervisor.mode is Mode.FAULT
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from wrist_control.resolving.commands import freshness
+
 
 class Deadman:
     """A switch that somebody has to keep pressing, over and over again."""
@@ -67,4 +69,4 @@ class Permission:
             return 1.0
         if self._since is None:
             self._since = receipt_time
-        return min(1.0, max(0.0, 1.0 - (receipt_time - self._since) / stop_time))
+        return freshness(receipt_time - self._since, 0.0, stop_time)

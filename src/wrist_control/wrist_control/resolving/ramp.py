@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Generic, NamedTuple, TypeVar
+from typing import NamedTuple
 
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.step import Twist
 
 # A share that is rounding alone.
 NOTHING = 1e-9
-Mode = TypeVar('Mode')
 
 
-class Ramp(NamedTuple, Generic[Mode]):
+class Ramp(NamedTuple):
     """A stop that is counted in steps, so that no clock can lengthen it.
 
     Attributes:
@@ -24,7 +24,7 @@ class Ramp(NamedTuple, Generic[Mode]):
     then: Mode
     message: str
 
-    def after(self, dt: float, stop_time: float) -> Ramp[Mode]:
+    def after(self, dt: float, stop_time: float) -> Ramp:
         """Return the ramp one step later.
 
         Args:

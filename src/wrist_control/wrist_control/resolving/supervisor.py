@@ -49,7 +49,7 @@ class Supervisor:
         self._commands: LatestMessage[Command] = LatestMessage()
         self._feedback = Feedback(wrist.joints)
         self._adopted = self._moving = False
-        self._ramp: Ramp[Mode] | None = None
+        self._ramp: Ramp | None = None
         self._commanded: Twist = ZERO_TWIST
         self._reason = ''
         self._permission = Permission()
