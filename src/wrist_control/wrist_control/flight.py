@@ -12,7 +12,8 @@ import numpy as np
 from wrist_control.errors import InvalidValueError
 from wrist_control.operating.maneuvers import ZERO_RATES, Maneuver, make_maneuver
 from wrist_control.operating.pilot import ManeuverClock
-from wrist_control.resolving import State, Step, resting, start, step
+from wrist_control.resolving import State, Step, start, step
+from wrist_control.resolving.state import ZERO_TWIST
 from wrist_control.rotations import Pose, Vector, to_forearm
 from wrist_control.units import INCH
 from wrist_control.wrists import Wrist, make_wrist
@@ -135,6 +136,8 @@ def fly(
     rate: float = 32.0,
     joint_rate_limits: float | Sequence[float] | None = None,
     *,
+    joint_acceleration_limits: float | Sequence[float] | None = None,
+    joint_deceleration_limits: float | Sequence[float] | None = None,
     initial_positions: Sequence[float] | None = None,
     probe: Vector = PROBE,
     patience: float = 30.0,
@@ -149,6 +152,11 @@ def fly(
         rate: Steps per second.
         joint_rate_limits: rad/s or m/s, one for all joints or one for each; the wrist's own
             when not given, which are none unless it was made with some.
+        joint_acceleration_limits: rad/s² or m/s², how quickly joints may become faster; as the
+            wrist's own when not given, which are none unless it was made with some. With limits
+            the flight goes on after the maneuver until the joints are at rest.
+        joint_deceleration_limits: How quickly they may become slower; as quickly as faster when
+            not given.
         initial_positions: Where the joints start, rad or m; the wrist's home when not given.
         probe: End of the probe in hand axes, m.
         patience: Seconds the hand may lose in all before the flight is given up.
@@ -168,7 +176,13 @@ def fly(
         maneuver = make_maneuver(maneuver)
     if not (math.isfinite(rate) and rate > 0.0):
         raise InvalidValueError(f'rate is {rate}; it must be finite and above 0 steps/s.')
-    wrist = wrist.with_limits(rates=joint_rate_limits)
+    if joint_deceleration_limits is None:
+        joint_deceleration_limits = joint_acceleration_limits
+    wrist = wrist.with_limits(
+        rates=joint_rate_limits,
+        accelerations=joint_acceleration_limits,
+        decelerations=joint_deceleration_limits,
+    )
     rows, completed = _rows(
         wrist, maneuver, start(wrist, initial_positions), 1.0 / rate, patience, progress
     )
@@ -198,17 +212,26 @@ def _rows(
     clock = ManeuverClock(maneuver, dt)
     while state.time_lost <= patience:
         order = clock.order(len(rows) * dt, state.time_lost)
+        if clock.done:
+            return rows + _coming_to_rest(wrist, state, dt), True
         taken = step(wrist, state, (*linear, *order.rates), dt)
         rows.append((state, order.rates, taken))
-        if clock.done:
-            return rows, True
         lost = taken.state.time_lost - state.time_lost
         clock.follow(order, dt - lost)
         state = taken.state
         if progress is not None:
             progress(min(1.0, clock.time / maneuver.duration))
-    rows.append((state, ZERO_RATES, resting(wrist, state)))
-    return rows, False
+    return rows + _coming_to_rest(wrist, state, dt), False
+
+
+def _coming_to_rest(wrist: Wrist, state: State, dt: float) -> list[Sample]:
+    rows = []
+    while True:
+        taken = step(wrist, state, ZERO_TWIST, dt)
+        rows.append((state, ZERO_RATES, taken))
+        if not any(taken.joint_rates):
+            return rows
+        state = taken.state
 
 
 def _row(state: State, command: Vector, taken: Step) -> Row:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from wrist_control import make_wrist
 from wrist_control.resolving import start
-from wrist_control.resolving.homing import has_reached, step_towards
+from wrist_control.resolving.homing import has_reached, step_home
 
 WRIST = make_wrist('three_gimbal')
 CALM = 0.5  # rad/s, for a joint without a rate limit
@@ -20,7 +20,7 @@ rate_limits = st.lists(st.one_of(st.floats(0.05, 5.0), st.just(math.inf)), min_s
 def way(wrist, state, aim, dt):
     """Yield the states on the way to an aim, until there."""
     while not has_reached(state, aim):
-        state = step_towards(wrist, state, aim, dt)
+        state = step_home(wrist, state, aim, dt).state
         yield state
 
 
@@ -54,7 +54,7 @@ def test_the_joints_go_straight_and_arrive_together_in_the_time_of_the_slowest(t
 
 def test_the_hand_goes_with_the_joints_and_time_lost_stands_on_the_way():
     state = start(WRIST, (0.5, 0.5, 0.5))._replace(time_lost=3.0, steering_state=(1.0,))
-    after = step_towards(WRIST, state, (0.0, 0.0, 0.0), 0.1)
+    after = step_home(WRIST, state, (0.0, 0.0, 0.0), 0.1).state
     assert after.pose == WRIST.forward(after.positions)
     assert after.time_lost == 3.0
     assert after.steering_state == ()
@@ -64,7 +64,7 @@ def test_a_prismatic_joint_without_a_limit_goes_calmly_too():
     wrist = make_wrist('stewart').with_limits(rates=math.inf)
     state = start(wrist)
     aim = tuple(x + 0.01 for x in state.positions)
-    after = step_towards(wrist, state, aim, 0.1)
+    after = step_home(wrist, state, aim, 0.1).state
     assert np.subtract(after.positions, state.positions) == pytest.approx([0.1 * 0.02] * 6)
 
 
@@ -83,9 +83,9 @@ def test_arrived_is_every_joint_in_its_place():
 
 def test_without_limits_joints_go_home_at_half_a_radian_and_legs_at_two_centimetres_a_second():
     turning = make_wrist('three_gimbal')
-    turned = step_towards(turning, start(turning), (1.0, 0.0, 0.0), 0.01)
+    turned = step_home(turning, start(turning), (1.0, 0.0, 0.0), 0.01).state
     assert turned.positions == pytest.approx((0.005, 0.0, 0.0))
     platform = make_wrist('stewart')
     higher = [length + 0.01 for length in platform.home]
-    lifted = step_towards(platform, start(platform), higher, 0.01)
+    lifted = step_home(platform, start(platform), higher, 0.01).state
     assert list(lifted.positions) == pytest.approx([x + 0.0002 for x in platform.home])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.step import ZERO_TWIST
+from wrist_control.resolving.state import ZERO_TWIST
 
 PITCH = (0.0, 0.0, 0.0, 0.0, 0.3, 0.0)
 RELEASED = 'Stopped: the dead-man switch is released; press it to move.'

@@ -5,7 +5,7 @@ import pytest
 from wrist_control import make_wrist
 from wrist_control.resolving import LimitAtWork, LimitKind, start, step
 from wrist_control.resolving.report import WristState, sentence, state_of
-from wrist_control.resolving.step import resting
+from wrist_control.resolving.state import resting
 
 WRIST = make_wrist('three_gimbal')
 ZERO_TWIST = (0.0, 0.0, 0.0)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from wrist_control import InvalidValueError, make_wrist
 from wrist_control.resolving import LimitKind, start, step
-from wrist_control.resolving.step import ZERO_TWIST, resting
+from wrist_control.resolving.state import ZERO_TWIST, resting
 
 WRIST = make_wrist('three_gimbal')
 LOCKED = 0.5 * math.pi

@@ -4,7 +4,7 @@ import pytest
 
 from wrist_control import make_wrist
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.step import ZERO_TWIST
+from wrist_control.resolving.state import ZERO_TWIST
 from wrist_control.resolving.supervisor import Mode
 
 DT = 0.01

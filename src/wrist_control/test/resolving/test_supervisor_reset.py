@@ -8,7 +8,7 @@ import pytest
 
 from wrist_control import InvalidValueError, make_wrist
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.step import ZERO_TWIST
+from wrist_control.resolving.state import ZERO_TWIST
 from wrist_control.resolving.supervisor import Mode
 
 PITCH = (0.0, 0.0, 0.0, 0.0, 0.3, 0.0)

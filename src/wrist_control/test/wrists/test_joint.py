@@ -11,7 +11,7 @@ JOINTS = (Joint('psi'), Joint('leg', 'prismatic', 0.2, 0.4, 0.1))
 
 
 def test_a_joint_is_free_unless_it_is_told_otherwise():
-    assert Joint('psi') == ('psi', 'revolute', -math.inf, math.inf, math.inf)
+    assert Joint('psi') == ('psi', 'revolute', -math.inf, *[math.inf] * 4)
 
 
 def test_one_value_is_for_all_joints_and_more_are_one_for_each():
@@ -23,10 +23,11 @@ def test_one_value_is_for_all_joints_and_more_are_one_for_each():
 
 
 def test_limits_that_are_not_given_stay_and_nothing_else_changes():
-    assert with_limits(JOINTS, None, None, None) == JOINTS
-    psi, leg = with_limits(JOINTS, 0.5, None, (1.0, 0.3))
-    assert psi == ('psi', 'revolute', -math.inf, 1.0, 0.5)
-    assert leg == ('leg', 'prismatic', 0.2, 0.3, 0.5)
+    assert with_limits(JOINTS) == JOINTS
+    psi, leg = with_limits(JOINTS, 0.5, None, (1.0, 0.3), 2.0, (3.0, 4.0))
+    assert psi == ('psi', 'revolute', -math.inf, 1.0, 0.5, 2.0, 3.0)
+    assert leg == ('leg', 'prismatic', 0.2, 0.3, 0.5, 2.0, 4.0)
+    assert with_limits((psi, leg)) == (psi, leg)
 
 
 @pytest.mark.parametrize(
@@ -43,3 +44,10 @@ def test_limits_that_are_not_given_stay_and_nothing_else_changes():
 def test_limits_that_cannot_be_kept_are_refused_in_a_sentence(rates, lower, upper, sentence):
     with pytest.raises(InvalidValueError, match=sentence):
         with_limits(JOINTS, rates, lower, upper)
+
+
+@pytest.mark.parametrize('what', ['acceleration', 'deceleration'])
+@pytest.mark.parametrize('value', [0.0, -1.0, math.nan, (1.0,) * 3])
+def test_rates_that_could_never_change_are_refused_in_a_sentence(what, value):
+    with pytest.raises(InvalidValueError, match=f'joint_{what}_limits (has|is)'):
+        with_limits(JOINTS, **{f'{what}s': value})

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.resolving import LimitKind, start, step
-from wrist_control.resolving.homing import has_reached, step_towards
+from wrist_control.resolving.homing import has_reached, step_home
 from wrist_control.rotations import IDENTITY, Pose, about_z, rates_between, turned
 from wrist_control.stewart.forward_kinematics import Status
 from wrist_control.units import INCH
@@ -206,7 +206,7 @@ def test_the_way_home_is_made_of_lengths_alone():
     wrist = WRIST.with_limits(rates=0.1)
     state = fly(wrist, (0.05, -0.05, 0.02, 0.3, 0.2, -0.3), 100, start(wrist)).state
     for _ in range(200):
-        state = step_towards(wrist, state, wrist.home, DT)
+        state = step_home(wrist, state, wrist.home, DT).state
     assert has_reached(state, wrist.home)
     assert state.pose.position == pytest.approx(HOME.position, abs=1e-9)
     assert step(wrist, state, (0, 0, 0, 0, 0, 0.1), DT).scale_factor == 1.0

@@ -7,7 +7,7 @@ import pytest
 
 from wrist_control import UnreachableError, make_wrist
 from wrist_control.errors import RefusedError
-from wrist_control.resolving.homing import has_reached, step_towards
+from wrist_control.resolving.homing import has_reached, step_home
 from wrist_control.resolving.step import start, step
 from wrist_control.resolving.supervisor import Mode, Supervisor, SupervisorSettings
 from wrist_control.rotations import Pose
@@ -91,7 +91,7 @@ def test_the_way_home_never_jumps_and_ends_at_home(seconds):
     for _ in range(round(seconds / 0.02)):
         before = step(WRIST, before, WALKS[0][0], 0.02).state
     while not has_reached(before, WRIST.home):
-        state = step_towards(WRIST, before, WRIST.home, 0.01)
+        state = step_home(WRIST, before, WRIST.home, 0.01).state
         assert math.dist(state.pose.position, before.pose.position) < 0.01
         before = state
     assert before.pose.position == pytest.approx(WRIST.home.pose.position)
@@ -102,7 +102,7 @@ def test_the_way_home_is_not_followed_into_lock():
     state = MISLED[0]
     with pytest.raises(UnreachableError, match='NEAR_SINGULAR'):  # noqa: PT012
         for _ in range(2000):
-            before, state = state, step_towards(WRIST, state, WRIST.home, 0.01)
+            before, state = state, step_home(WRIST, state, WRIST.home, 0.01).state
             assert math.dist(state.pose.position, before.pose.position) < 0.01
 
 

@@ -21,6 +21,7 @@ from wrist_control.nodes.resolver_inputs import Inputs
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import (
     check_ceilings,
+    completed,
     limited,
     mechanism,
     settings,
@@ -71,7 +72,7 @@ class Resolver(GuardedNode):
         self._hidden: list[Subscription] = []
         super().__init__(f'{wrist_name}_resolver', **node_options)
         wanted = specs(wrist_name)
-        self._values = declare(self, wanted)
+        self._values = completed(declare(self, wanted))
         self._started = dict(self._values)
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))

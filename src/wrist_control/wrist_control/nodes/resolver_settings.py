@@ -14,6 +14,8 @@ from wrist_control.wrists.joint import broadcast_to_joints
 
 # What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.
 CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
+# How long a joint takes to full speed, and from there to a stop, when nobody says, s.
+SPEEDING_UP, SLOWING_DOWN = 0.25, 0.1
 # How far a joint may be behind its command, rad and m.
 BEHIND = {'revolute': 0.1, 'prismatic': 0.005}
 
@@ -71,6 +73,24 @@ def specs(wrist_name: str) -> list[Spec]:
             live=True,
         ),
         Spec(
+            'joint_acceleration_limits',
+            [],
+            f'How quickly joints may become faster, {each}; .inf for no limit; to full speed in '
+            f'{SPEEDING_UP:g} s when empty',
+            f'{unit}/s^2',
+            0.0,
+            live=True,
+        ),
+        Spec(
+            'joint_deceleration_limits',
+            [],
+            f'How quickly joints may become slower, {each}; .inf for no limit; to a stop in '
+            f'{SLOWING_DOWN:g} s when empty',
+            f'{unit}/s^2',
+            0.0,
+            live=True,
+        ),
+        Spec(
             'joint_lower_limits',
             [joint.lower for joint in joints],
             f'Lowest joint position, {each}',
@@ -124,6 +144,18 @@ def specs(wrist_name: str) -> list[Spec]:
     ]
 
 
+def completed(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return parameters with the limits that follow from others where none were given."""
+    rates = values['joint_rate_limits']
+    return {
+        **values,
+        'joint_acceleration_limits': values['joint_acceleration_limits']
+        or [rate / SPEEDING_UP for rate in rates],
+        'joint_deceleration_limits': values['joint_deceleration_limits']
+        or [rate / SLOWING_DOWN for rate in rates],
+    }
+
+
 def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
     """Return a wrist with the joint limits of the parameters.
 
@@ -134,6 +166,8 @@ def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
         rates=values['joint_rate_limits'],
         lower=values['joint_lower_limits'],
         upper=values['joint_upper_limits'],
+        accelerations=values['joint_acceleration_limits'],
+        decelerations=values['joint_deceleration_limits'],
     )
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from wrist_control.errors import InvalidValueError, RefusedError
 from wrist_control.resolving.joint_order import in_joint_order
-from wrist_control.resolving.step import State
+from wrist_control.resolving.state import State
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Wrist
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from wrist_control.resolving.limits import joint_overruns, smallest_share
-from wrist_control.resolving.step import State, Step, resting
+from wrist_control.resolving.easing import brought_to_rest, eased
+from wrist_control.resolving.limits import LimitAtWork, joint_overruns, smallest_share
+from wrist_control.resolving.rate_windows import stopping_time
+from wrist_control.resolving.state import State, Step, increments, step_between
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Wrist
 
@@ -14,38 +16,50 @@ from wrist_control.wrists.wrist import Wrist
 CALM = {'revolute': 0.5, 'prismatic': 0.02}
 
 
-def step_towards(wrist: Wrist, state: State, goal: Sequence[float], dt: float) -> State:
-    """Return the state after one step straight towards joint positions, all arriving together.
-
-    Args:
-        wrist: The mechanism, with the limits to keep.
-        state: Where it is.
-        goal: Joint positions to go to, rad or m.
-        dt: Duration of the step, s.
-    """
-    joints = [_calm(joint) for joint in wrist.joints]
-    share = smallest_share(joint_overruns(joints, state.positions, tuple(goal), dt))
-    way = zip(state.positions, goal, strict=True)
-    positions = wrist.resolve_assembly([old + share * (new - old) for old, new in way], state.pose)
-    return State(positions, wrist.forward(positions), (), state.time_lost)
-
-
 def step_home(
     wrist: Wrist, state: State, goal: Sequence[float], dt: float, share: float = 1.0
 ) -> Step:
-    """Return a step of `dt` towards joint positions, with the rates that it was made at.
+    """Return a step straight towards joint positions, all arriving together and at rest.
 
     Args:
         wrist: The mechanism, with the limits to keep.
         state: Where it is.
         goal: Joint positions to go to, rad or m.
         dt: Duration of the step, s.
-        share: How much of the step is made, 0 for none: on the way to a stop it is less than all.
+        share: How fast, 0 to 1: on the way to a stop it is less than as fast as they may.
     """
-    after = step_towards(wrist, state, goal, share * dt) if share > 0.0 else state
-    moved = zip(state.positions, after.positions, strict=True)
-    rates = tuple((new - old) / dt for old, new in moved)
-    return resting(wrist, after)._replace(joint_rates=rates)
+    if share > 0.0:
+        after = _towards(wrist, state, goal, dt, share)
+    else:
+        after = brought_to_rest(wrist, state, dt)
+    return step_between(state, after, dt, 1.0, wrist.margin(state.positions), False, ())
+
+
+def _towards(wrist: Wrist, state: State, goal: Sequence[float], dt: float, share: float) -> State:
+    joints = [_calm(joint) for joint in wrist.joints]
+    whole = increments(state.positions, tuple(goal), dt)
+
+    def attempt(part: float) -> tuple[State | None, list[LimitAtWork]]:
+        if part > 1.0:
+            return None, []
+        way = zip(state.positions, goal, strict=True)
+        positions = wrist.resolve_assembly(
+            [old + part * (new - old) for old, new in way], state.pose
+        )
+        return State(positions, wrist.forward(positions)), []
+
+    reach = smallest_share(joint_overruns(joints, state.positions, tuple(goal), share * dt))
+    part = min(reach, _largest_part_to_stop_after(stopping_time(wrist.joints, whole) / dt))
+    return eased(wrist, state, attempt, (part, attempt(part)[0], []), dt)[1]
+
+
+def _largest_part_to_stop_after(time: float) -> float:
+    """Return the part x of the way that leaves space to stop in: x + x² time / 2 = 1.
+
+    Args:
+        time: How long stopping would take after all of the way in one step, in steps.
+    """
+    return 2.0 / (1.0 + math.sqrt(1.0 + 2.0 * time))
 
 
 def has_reached(state: State, goal: Sequence[float]) -> bool:

@@ -49,7 +49,7 @@ def rate_overruns(joints: Sequence[Joint], rates: Rates) -> list[LimitAtWork]:
     """Return the joints that would have to move faster than they may."""
     return [
         _rate_at_work(name, rate, limit)
-        for (name, _, _, _, limit), rate in zip(joints, rates, strict=True)
+        for (name, _, _, _, limit, *_), rate in zip(joints, rates, strict=True)
         if abs(rate) > limit * RATE_TOLERANCE
     ]
 
@@ -59,7 +59,7 @@ def joint_overruns(
 ) -> list[LimitAtWork]:
     """Return the joints that would move too fast, leave their range, or go further outside it."""
     found = []
-    for (name, _, lower, upper, limit), old, new in zip(joints, before, after, strict=True):
+    for (name, _, lower, upper, limit, *_), old, new in zip(joints, before, after, strict=True):
         if abs(new - old) > limit * dt * RATE_TOLERANCE:
             found.append(_rate_at_work(name, (new - old) / dt, limit))
         if not lower - TOLERANCE <= new <= upper + TOLERANCE:

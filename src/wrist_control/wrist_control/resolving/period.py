@@ -6,7 +6,7 @@ from enum import Enum
 from typing import NamedTuple
 
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.step import Step, Twist
+from wrist_control.resolving.state import Step, Twist
 from wrist_control.wrists.wrist import Positions
 
 
@@ -50,6 +50,10 @@ class PeriodResult(NamedTuple):
     commanded: Twist
     message: str
     moving_allowed: bool
+
+    def withheld(self, why: str) -> PeriodResult:
+        """Return the same of a hand that may not move, and why; as it is when that is empty."""
+        return self._replace(wrist_state=WristState.STALE, message=why) if why else self
 
 
 class Mode(Enum):

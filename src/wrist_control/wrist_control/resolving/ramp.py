@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from wrist_control.resolving.period import Mode
-from wrist_control.resolving.step import Twist
+from wrist_control.resolving.state import Twist
 
 # A share that is rounding alone.
 NOTHING = 1e-9

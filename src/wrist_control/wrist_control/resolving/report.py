@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from enum import IntEnum
 
 from wrist_control.resolving.limits import LimitAtWork, LimitKind
-from wrist_control.resolving.step import MECHANISM, Step
+from wrist_control.resolving.state import Step
+from wrist_control.resolving.step import MECHANISM
 from wrist_control.wrists.wrist import Wrist
 
 # Part of the command that the mechanism may leave out before the operator is told, rad/s or m/s.
@@ -44,13 +45,15 @@ def sentence(wrist: Wrist, step: Step, commanded: Sequence[float]) -> str:
     """Return what is happening and what to do, in one sentence."""
     state = state_of(step, commanded)
     if state == WristState.IDLE:
-        return 'Ready: no motion is commanded.'
+        return f'{"Coming to rest" if any(step.joint_rates) else "Ready"}: no motion is commanded.'
     if state == WristState.SINGULAR:
         return _singular(wrist, step)
     if state == WristState.LIMITED:
         return _limited(wrist, step)
     if state == WristState.SCALED:
         return _scaled(wrist, step.limits, step.scale_factor)
+    if any(limit.kind == LimitKind.ACCELERATION for limit in step.limits):
+        return _changing_speed(wrist, step.limits)
     return _tracking(wrist, step, commanded)
 
 
@@ -92,10 +95,23 @@ def _nothing_possible(wrist: Wrist) -> str:
 
 def _scaled(wrist: Wrist, limits: Sequence[LimitAtWork], factor: float) -> str:
     worst = min(limits, key=lambda limit: limit.share)
+    if worst.kind == LimitKind.ACCELERATION:
+        return _changing_speed(wrist, limits)
     asked, allowed = _number(worst.asked, 1), _number(worst.allowed, 2)
     return (
         f'Slowed to {_coarse(factor)}: {worst.joint} would need {asked} {_unit(wrist, worst)}/s '
         f'and may do {allowed}; ask for less, or turn another way.'
+    )
+
+
+def _changing_speed(wrist: Wrist, limits: Sequence[LimitAtWork]) -> str:
+    worst = min(
+        (limit for limit in limits if limit.kind == LimitKind.ACCELERATION),
+        key=lambda limit: limit.share,
+    )
+    return (
+        f'Changing speed as quickly as {worst.joint} may, by {_number(worst.allowed, 2)} '
+        f'{_unit(wrist, worst)}/s in each second; keep on.'
     )
 
 

@@ -6,20 +6,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias
+from collections.abc import Sequence
 
 from wrist_control.errors import InvalidValueError, UnreachableError
+from wrist_control.resolving.easing import brought_to_rest, eased
+from wrist_control.resolving.feasible import Target, edge, within_limits
 from wrist_control.resolving.limits import (
     LimitAtWork,
     LimitKind,
-    overruns,
     rate_overruns,
     smallest_share,
 )
-from wrist_control.resolving.search import Attempt, largest_share
-from wrist_control.rotations import Pose, Vector, rates_between, to_hand
-from wrist_control.wrists.wrist import Configuration, Positions, Rates, SteeringState, Wrist
+from wrist_control.resolving.search import largest_share
+from wrist_control.resolving.state import State, Step, resting, step_between
+from wrist_control.rotations import Vector
+from wrist_control.wrists.wrist import Configuration, Positions, Wrist
 
 # Barker's ε0: below this margin instantaneous rates say nothing and average rates are used.
 SINGULAR_MARGIN = 0.001
@@ -28,49 +29,6 @@ ROUNDOFF = 1e-9
 # The limits at work that are no joint's and no clearance's: what the mechanism cannot do
 # anywhere, and what it cannot do at lock.
 MECHANISM, LOCK = 'mechanism', 'lock'
-
-Twist = tuple[float, float, float, float, float, float]
-ZERO_TWIST: Twist = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-Target: TypeAlias = 'tuple[Positions, SteeringState]'
-
-
-class State(NamedTuple):
-    """All that one step hands to the next.
-
-    Attributes:
-        positions: Joint positions, rad or m; a `Configuration` of a wrist that needs the pose to
-            tell its assemblies apart.
-        pose: The hand's pose in the forearm frame.
-        steering_state: The wrist's own, from `Wrist.choose_branch_reference`.
-        time_lost: The integral of 1 − F so far, s.
-    """
-
-    positions: Positions
-    pose: Pose
-    steering_state: SteeringState = ()
-    time_lost: float = 0.0
-
-
-class Step(NamedTuple):
-    """What one step did, and why.
-
-    Attributes:
-        state: Where everything is afterwards.
-        joint_rates: The real increments over dt, rad/s or m/s.
-        scale_factor: Barker's F, the share of the command that was followed, 0 to 1.
-        margin: How far from singular the wrist was before the step.
-        singular: True when the step was made in the singular region.
-        limits: Every limit at work.
-        achieved: The twist really made, (vx, vy, vz, p, q, r) in hand axes.
-    """
-
-    state: State
-    joint_rates: Rates
-    scale_factor: float
-    margin: float
-    singular: bool
-    limits: tuple[LimitAtWork, ...]
-    achieved: Twist
 
 
 def start(wrist: Wrist, positions: Sequence[float] | None = None) -> State:
@@ -121,12 +79,6 @@ def _start(positions: Positions) -> str:
     return f'initial_positions {tuple(positions)}'
 
 
-def resting(wrist: Wrist, state: State) -> Step:
-    """Return the step in which nothing moves."""
-    margin = wrist.margin(state.positions)
-    return Step(state, (0.0,) * len(state.positions), 1.0, margin, False, (), ZERO_TWIST)
-
-
 def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     """Return what one step with a commanded hand twist does.
 
@@ -143,23 +95,31 @@ def step(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     if not math.isfinite(math.hypot(*twist)):
         raise InvalidValueError(f'The command {tuple(twist)} is not finite; nothing moves.')
     if not any(twist):
-        return resting(wrist, state)
+        return _without_command(wrist, state, dt)
     margin = wrist.margin(state.positions)
     asked = twist[-wrist.twist_size :]
     if not any(map(asked.__getitem__, wrist.followed_components)):
-        return _nothing_possible(wrist, state, twist)
+        return _nothing_possible(wrist, state, twist, dt)
     if margin < SINGULAR_MARGIN:
         return _step_at_lock(wrist, state, asked, dt, margin)
     return _step_along_command(wrist, state, asked, dt, margin)
 
 
-def _nothing_possible(wrist: Wrist, state: State, twist: Sequence[float]) -> Step:
+def _without_command(wrist: Wrist, state: State, dt: float) -> Step:
+    """Return the step of a hand that nothing is asked of: it stands still, or comes to rest."""
+    after = brought_to_rest(wrist, state, dt)
+    if after is state:
+        return resting(wrist, state)
+    return step_between(state, after, dt, 1.0, wrist.margin(state.positions), False, ())
+
+
+def _nothing_possible(wrist: Wrist, state: State, twist: Sequence[float], dt: float) -> Step:
     """Return the step of a command that the mechanism can do nothing of, here or elsewhere.
 
     No time is lost: whoever waited for the hand would wait for ever.
     """
     limit = LimitAtWork(MECHANISM, LimitKind.WORKSPACE, math.hypot(*twist), 0.0, 0.0)
-    return resting(wrist, state)._replace(scale_factor=0.0, limits=(limit,))
+    return _without_command(wrist, state, dt)._replace(scale_factor=0.0, limits=(limit,))
 
 
 def _step_along_command(
@@ -171,10 +131,10 @@ def _step_along_command(
         return _target(wrist, state, twist, factor, dt)
 
     limits = rate_overruns(wrist.joints, wrist.rates(state.positions, twist))
-    factor, after, limits = largest_share(
-        _within_limits(wrist, state, target, dt), smallest_share(limits), limits
-    )
-    return _step_between(state, after or state, dt, factor, margin, False, limits)
+    attempt = within_limits(wrist, state, target, dt)
+    found = largest_share(attempt, smallest_share(limits), limits)
+    factor, after, limits = eased(wrist, state, attempt, found, dt)
+    return step_between(state, after, dt, factor, margin, False, limits)
 
 
 def _step_at_lock(
@@ -191,7 +151,8 @@ def _step_at_lock(
     lost = LimitAtWork(LOCK, LimitKind.SINGULARITY, margin, SINGULAR_MARGIN, 0.0)
     rest = _without(wrist.lost_axis(state.positions), twist)
     if math.hypot(*rest) <= ROUNDOFF * math.hypot(*twist):
-        return _step_between(state, state, dt, 0.0, margin, True, [lost])
+        after = brought_to_rest(wrist, state, dt)
+        return step_between(state, after, dt, 0.0, margin, True, [lost])
     taken = _step_through_lock(wrist, state, rest, dt, margin)
     return taken._replace(limits=(*taken.limits, lost))
 
@@ -205,7 +166,7 @@ def _step_through_lock(
         try:
             return _target(wrist, state, twist, reach, dt), []
         except UnreachableError as error:
-            return None, [_edge(error)]
+            return None, [edge(error)]
 
     reach, found, limits = largest_share(aim, 1.0)
     goal, steering_state = found or (state.positions, state.steering_state)
@@ -214,8 +175,10 @@ def _step_through_lock(
         way = zip(state.positions, goal, strict=True)
         return tuple([old + share * (new - old) for old, new in way]), steering_state
 
-    share, after, limits = largest_share(_within_limits(wrist, state, part_way, dt), 1.0, limits)
-    return _step_between(state, after or state, dt, reach * share, margin, True, limits)
+    attempt = within_limits(wrist, state, part_way, dt)
+    part = largest_share(attempt, 1.0, limits)
+    share, after, limits = eased(wrist, state, attempt, part, dt)
+    return step_between(state, after, dt, reach * share, margin, True, limits)
 
 
 def _without(axis: Vector, twist: Sequence[float]) -> list[float]:
@@ -235,55 +198,3 @@ def _target(
     )
     pose = wrist.target_pose(state.pose, [factor * x for x in twist], dt)
     return wrist.inverse(pose, near), steering_state
-
-
-def _within_limits(
-    wrist: Wrist, state: State, target: Callable[[float], Target], dt: float
-) -> Attempt[State]:
-    """Return what makes the state at a share's target, or tells the limits that it would break."""
-
-    def attempt(share: float) -> tuple[State | None, list[LimitAtWork]]:
-        try:
-            positions, steering_state = target(share)
-            if not math.isfinite(sum(positions)):
-                raise UnreachableError('The command leads nowhere.', 'no way on')
-            broken = overruns(wrist, state.positions, positions, dt)
-            if broken:
-                return None, broken
-            return State(positions, wrist.forward(positions), steering_state), []
-        except UnreachableError as error:
-            return None, [_edge(error)]
-
-    return attempt
-
-
-def _edge(error: UnreachableError) -> LimitAtWork:
-    return LimitAtWork(error.limit, LimitKind.WORKSPACE, 0.0, 0.0, 0.0)
-
-
-def _step_between(
-    before: State,
-    after: State,
-    dt: float,
-    factor: float,
-    margin: float,
-    singular: bool,
-    limits: Sequence[LimitAtWork],
-) -> Step:
-    joint_rates = tuple(
-        [(new - old) / dt for old, new in zip(before.positions, after.positions, strict=True)]
-    )
-    lost = before.time_lost + (1.0 - factor) * dt
-    state = State(after.positions, after.pose, after.steering_state, lost)
-    achieved = _twist_between(before.pose, after.pose, dt)
-    return Step(state, joint_rates, factor, margin, singular, tuple(limits), achieved)
-
-
-def _twist_between(before: Pose, after: Pose, dt: float) -> Twist:
-    (x0, y0, z0), (x1, y1, z1) = before.position, after.position
-    p, q, r = rates_between(before.quaternion, after.quaternion, dt)
-    if before.position == after.position:
-        return (0.0, 0.0, 0.0, p, q, r)
-    travel = ((x1 - x0) / dt, (y1 - y0) / dt, (z1 - z0) / dt)
-    vx, vy, vz = to_hand(before.quaternion, travel)
-    return (vx, vy, vz, p, q, r)

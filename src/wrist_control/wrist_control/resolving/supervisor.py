@@ -18,7 +18,8 @@ from wrist_control.resolving.period import Mode, PeriodResult, SupervisorSetting
 from wrist_control.resolving.permission import Permission
 from wrist_control.resolving.ramp import Ramp
 from wrist_control.resolving.report import WristState, sentence, state_of
-from wrist_control.resolving.step import ZERO_TWIST, State, Twist, resting, start, step
+from wrist_control.resolving.state import ZERO_TWIST, State, Twist, after_a_pause, resting
+from wrist_control.resolving.step import start, step
 from wrist_control.wrists.wrist import Wrist
 
 GO_ON = 'Call ~/enable to go on from where the joints are.'
@@ -52,6 +53,7 @@ class Supervisor:
         self._ramp: Ramp | None = None
         self._commanded: Twist = ZERO_TWIST
         self._reason = ''
+        self._stepped = 0.0
         self._permission = Permission()
 
     def take_command(self, command: Command) -> None:
@@ -178,6 +180,8 @@ class Supervisor:
             receipt_time: Now, s.
             withheld: Why the hand may not move now, one sentence; empty when it may.
         """
+        self.state = after_a_pause(self.state, self.settings.dt, receipt_time - self._stepped)
+        self._stepped = receipt_time
         allowed = self._permission.share(bool(withheld), receipt_time, self.settings.stop_time)
         try:
             if self.mode in (Mode.FOLLOWING, Mode.HOMING):
@@ -185,7 +189,7 @@ class Supervisor:
                     self.stop(self._feedback.blind_sentence(receipt_time), Mode.FAULT)
                 result = self._moved(stamp_time, receipt_time, allowed)
                 self._moving = any(result.step.joint_rates)
-                return self._ramped(result) if self._ramp else _withheld(result, withheld)
+                return self._ramped(result) if self._ramp else result.withheld(withheld)
         except WristError as error:
             return self.give_up(str(error))
         except ArithmeticError as error:
@@ -253,13 +257,15 @@ class Supervisor:
     def _ramped(self, result: PeriodResult) -> PeriodResult:
         assert self._ramp is not None
         share, then, message = self._ramp
-        if share == 0.0:  # with this step a zero is sent: now the joints may be let go
+        # With a step without motion a zero is sent: now the joints may be let go.
+        if share == 0.0 and not any(result.step.joint_rates):
             self._settle(then, message)
         state = WristState.STALE if then is Mode.FOLLOWING else WristState[then.name]
         return result._replace(wrist_state=state, message=message)
 
     def _settle(self, mode: Mode, message: str) -> None:
         self.mode, self._ramp, self._moving = mode, None, False
+        self.state = self.state._replace(joint_rates=())
         self._reason = f'{message} {GO_ON}'
         self._commands.clear()
 
@@ -292,7 +298,3 @@ class Supervisor:
             raise
         self._adopted, self.mode = True, Mode.FOLLOWING
         self._commands.clear()
-
-
-def _withheld(result: PeriodResult, why: str) -> PeriodResult:
-    return result._replace(wrist_state=WristState.STALE, message=why) if why else result

@@ -12,6 +12,7 @@ import numpy as np
 
 from wrist_control.testing.answers import ANSWERS
 from wrist_control.testing.broken import LawBrokenError
+from wrist_control.testing.eased import EASED
 from wrist_control.testing.held import HELD
 from wrist_control.testing.lock import LOCK
 from wrist_control.testing.motion import MOTION
@@ -20,7 +21,7 @@ from wrist_control.wrists.wrist import Wrist
 __all__ = ['LAWS', 'LawBrokenError', 'check_wrist']
 
 Law = Callable[[Wrist, np.random.Generator], None]
-LAWS: dict[str, Law] = {law.__name__: law for law in (*ANSWERS, *LOCK, *MOTION, *HELD)}
+LAWS: dict[str, Law] = {law.__name__: law for law in (*ANSWERS, *LOCK, *MOTION, *HELD, *EASED)}
 
 
 def check_wrist(wrist: Wrist, seed: int = 1) -> None:

@@ -12,7 +12,8 @@ import numpy as np
 from wrist_control.errors import UnreachableError
 from wrist_control.resolving.limits import LimitKind, overruns
 from wrist_control.resolving.report import sentence
-from wrist_control.resolving.step import SINGULAR_MARGIN, State, Step, step
+from wrist_control.resolving.state import State, Step
+from wrist_control.resolving.step import SINGULAR_MARGIN, step
 from wrist_control.testing.broken import require
 from wrist_control.testing.lock import locks
 from wrist_control.testing.places import Random, is_outside, random_twist, regular_places

@@ -4,23 +4,37 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from wrist_control.errors import InvalidValueError
 
 Kind = Literal['revolute', 'prismatic']
+# One limit for all joints, one for each, or None for those that they have.
+Limits: TypeAlias = 'float | Sequence[float] | None'
 
 
 class Joint(NamedTuple):
-    """One driven joint: rad and rad/s, or m and m/s for a prismatic one."""
+    """One driven joint: rad and rad/s, or m and m/s for a prismatic one.
+
+    Attributes:
+        name: The papers' symbol.
+        kind: How it moves.
+        lower: Lowest position.
+        upper: Highest position.
+        rate_limit: Fastest motion.
+        acceleration_limit: How quickly it may become faster, rad/s² or m/s².
+        deceleration_limit: How quickly it may become slower, rad/s² or m/s².
+    """
 
     name: str
     kind: Kind = 'revolute'
     lower: float = -math.inf
     upper: float = math.inf
     rate_limit: float = math.inf
+    acceleration_limit: float = math.inf
+    deceleration_limit: float = math.inf
 
 
 def broadcast_to_joints(name: str, values: Sequence[float], joints: Sequence[str]) -> list[float]:
@@ -46,36 +60,40 @@ def broadcast_to_joints(name: str, values: Sequence[float], joints: Sequence[str
 
 def with_limits(
     joints: Sequence[Joint],
-    rates: float | Sequence[float] | None,
-    lower: float | Sequence[float] | None,
-    upper: float | Sequence[float] | None,
+    rates: Limits = None,
+    lower: Limits = None,
+    upper: Limits = None,
+    accelerations: Limits = None,
+    decelerations: Limits = None,
 ) -> tuple[Joint, ...]:
     """Return the same joints with other limits: `Wrist.with_limits`."""
+    names = [joint.name for joint in joints]
+
+    def column(name: str, given: Limits, otherwise: list[float]) -> list[float]:
+        return otherwise if given is None else _limits(names, f'joint_{name}_limits', given)
+
     limits = zip(
         joints,
-        _limits(joints, 'joint_rate_limits', rates, [joint.rate_limit for joint in joints]),
-        _limits(joints, 'joint_lower_limits', lower, [joint.lower for joint in joints]),
-        _limits(joints, 'joint_upper_limits', upper, [joint.upper for joint in joints]),
+        column('rate', rates, [joint.rate_limit for joint in joints]),
+        column('lower', lower, [joint.lower for joint in joints]),
+        column('upper', upper, [joint.upper for joint in joints]),
+        column('acceleration', accelerations, [joint.acceleration_limit for joint in joints]),
+        column('deceleration', decelerations, [joint.deceleration_limit for joint in joints]),
         strict=True,
     )
     return tuple(
-        _checked(joint._replace(rate_limit=rate, lower=low, upper=up))
-        for joint, rate, low, up in limits
+        _checked(
+            joint._replace(lower=low, upper=up, rate_limit=rate)._replace(
+                acceleration_limit=faster, deceleration_limit=slower
+            )
+        )
+        for joint, rate, low, up, faster, slower in limits
     )
 
 
-def _limits(
-    joints: Sequence[Joint],
-    name: str,
-    given: float | Sequence[float] | None,
-    otherwise: list[float],
-) -> list[float]:
-    if given is None:
-        return otherwise
+def _limits(joints: Sequence[str], name: str, given: float | Sequence[float]) -> list[float]:
     values = broadcast_to_joints(
-        name,
-        [float(value) for value in np.atleast_1d(np.asarray(given, dtype=float))],
-        [joint.name for joint in joints],
+        name, [float(value) for value in np.atleast_1d(np.asarray(given, dtype=float))], joints
     )
     if any(math.isnan(value) for value in values):
         raise InvalidValueError(f'{name} is {values}; every value must be a number.')
@@ -83,11 +101,13 @@ def _limits(
 
 
 def _checked(joint: Joint) -> Joint:
-    if not joint.rate_limit > 0.0:
-        raise InvalidValueError(
-            f'joint_rate_limits has {joint.rate_limit:g} for {joint.name}; it must be above 0, '
-            'or .inf for no limit.'
-        )
+    for what in ('rate', 'acceleration', 'deceleration'):
+        limit = getattr(joint, f'{what}_limit')
+        if not limit > 0.0:
+            raise InvalidValueError(
+                f'joint_{what}_limits has {limit:g} for {joint.name}; it must be above 0, '
+                'or .inf for no limit.'
+            )
     if not joint.lower < joint.upper:
         raise InvalidValueError(
             f'The limits of {joint.name} cross: lower {joint.lower:g}, upper {joint.upper:g}; '

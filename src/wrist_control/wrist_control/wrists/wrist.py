@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -13,7 +14,7 @@ import numpy as np
 from wrist_control.rotations import Pose, Vector, turned
 from wrist_control.wrists import joint as joint_limits
 from wrist_control.wrists.dimension import Dimension, PointList, dimensions_of, point_lists_of
-from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.joint import Joint, Limits
 
 Rates = tuple[float, ...]
 SteeringState = tuple[float, ...]
@@ -144,6 +145,15 @@ class Wrist(ABC):
         linear = self.twist_size - 3
         return (*range(linear), *(linear + axis for axis in self.followed_axes))
 
+    @cached_property
+    def limits_acceleration(self) -> bool:
+        """Whether there is a joint whose rate may not change at once."""
+        return any(
+            math.isfinite(limit)
+            for joint in self.joints
+            for limit in (joint.acceleration_limit, joint.deceleration_limit)
+        )
+
     @abstractmethod
     def forward(self, positions: Sequence[float]) -> Pose:
         """Return the pose of the hand in the forearm frame.
@@ -246,14 +256,19 @@ class Wrist(ABC):
 
     def with_limits(
         self: SomeWrist,
-        rates: float | Sequence[float] | None = None,
-        lower: float | Sequence[float] | None = None,
-        upper: float | Sequence[float] | None = None,
+        rates: Limits = None,
+        lower: Limits = None,
+        upper: Limits = None,
+        accelerations: Limits = None,
+        decelerations: Limits = None,
     ) -> SomeWrist:
         """Return the same wrist with other joint limits, one for all joints or one for each.
 
         Raises:
-            InvalidValueError: Wrong number of values, a limit that is no number, a rate limit
-                that is not above 0, or limits that cross.
+            InvalidValueError: Wrong number of values, a limit that is no number, one of rates or
+                their changes that is not above 0, or limits that cross.
         """
-        return replace(self, joints=joint_limits.with_limits(self.joints, rates, lower, upper))
+        joints = joint_limits.with_limits(
+            self.joints, rates, lower, upper, accelerations, decelerations
+        )
+        return replace(self, joints=joints)

@@ -1,0 +1,158 @@
+"""Steps of joints whose rates cannot change at once.
+
+Of the factors that keep the change of every joint's rate within its limits, the largest is taken:
+the hand keeps the commanded direction. Where there is none, the joints take the rates nearest to
+it. Every step leaves space to stop in, so stopping is always possible.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TypeAlias
+
+from wrist_control.resolving.feasible import Target, within_limits
+from wrist_control.resolving.limits import (
+    RATE_TOLERANCE,
+    TOLERANCE,
+    LimitAtWork,
+    LimitKind,
+    overruns,
+)
+from wrist_control.resolving.rate_windows import (
+    Window,
+    common_factors,
+    nearest_factor,
+    rate_windows,
+    stopping_time,
+)
+from wrist_control.resolving.search import Attempt, largest_share
+from wrist_control.resolving.state import State, increments
+from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.wrist import Rates, Wrist
+
+# What `largest_share` finds: a share, what it makes, and every limit at work.
+Found: TypeAlias = 'tuple[float, State | None, list[LimitAtWork]]'
+
+# The way of a step is nearly straight: the factor is exact after few corrections, and after so
+# many where a step of 1/25 s turns the joints as fast as they are made for.
+CORRECTIONS = 16
+
+
+def eased(
+    wrist: Wrist, state: State, attempt: Attempt[State], found: Found, dt: float
+) -> tuple[float, State, list[LimitAtWork]]:
+    """Return the factor and the state of a step that changes no joint's rate too quickly.
+
+    Args:
+        wrist: The mechanism, with the limits to keep.
+        state: Where it is, and how fast it was in the step before.
+        attempt: Makes the state at a factor.
+        found: The largest factor that keeps all other limits, its state, and the limits at work.
+        dt: Duration of the step, s.
+    """
+    factor, wanted, limits = found
+    if wanted is None or not wrist.limits_acceleration:
+        return factor, wanted or brought_to_rest(wrist, state, dt), limits
+    windows = rate_windows(wrist.joints, state.joint_rates, dt)
+    rates = increments(state.positions, wanted.positions, dt)
+    held = _held_back(wrist.joints, state.joint_rates, rates, windows, dt)
+    if not held:
+        return found[0], wanted, limits
+    limits = [*limits, *held]
+    along = _along_command(state, attempt, factor, wanted, windows, dt)
+    if along:
+        return min(1.0, along[0]), along[1], limits
+    share = nearest_factor(rates, windows)
+    nearest = [window.nearest(share * rate) for rate, window in zip(rates, windows, strict=True)]
+    return min(1.0, share * factor), _near(wrist, state, wanted, nearest, dt), limits
+
+
+def brought_to_rest(wrist: Wrist, state: State, dt: float) -> State:
+    """Return the state after a step of slowing down, all joints together on a straight line.
+
+    What was left to stop in may not be enough any more, when a limit was lowered: then the limit
+    is kept, and the joints stop sooner than they should.
+    """
+    way = _braking(wrist, state.joint_rates, dt)
+    if not any(way):
+        return state
+
+    def attempt(share: float) -> tuple[State | None, list[LimitAtWork]]:
+        moved = [at + share * rate * dt for at, rate in zip(state.positions, way, strict=True)]
+        positions = wrist.resolve_assembly(moved, state.pose)
+        broken = overruns(wrist, state.positions, positions, math.inf)
+        if broken:
+            return None, broken
+        return State(positions, wrist.forward(positions), state.steering_state), []
+
+    return largest_share(attempt, 1.0)[1] or state
+
+
+def _braking(wrist: Wrist, rates: Rates, dt: float) -> list[float]:
+    """Return the rates one step nearer to rest."""
+    if not any(rates):
+        return []
+    time = stopping_time(wrist.joints, rates)
+    left = 1.0 - dt / time if time > dt else 0.0
+    return [left * rate for rate in rates]
+
+
+def _along_command(
+    state: State,
+    attempt: Attempt[State],
+    factor: float,
+    wanted: State,
+    windows: Sequence[Window],
+    dt: float,
+) -> tuple[float, State] | None:
+    """Return the factor that brings all rates inside their windows, and its state, or None."""
+    made: State | None = wanted
+    for _ in range(CORRECTIONS):
+        if made is None:
+            break
+        rates = increments(state.positions, made.positions, dt)
+        smallest, largest = common_factors(rates, windows)
+        if smallest > largest * RATE_TOLERANCE:
+            break
+        share = min(max(1.0, smallest), largest)
+        if abs(share - 1.0) <= TOLERANCE:
+            return factor, made
+        factor *= share
+        made, _ = attempt(factor)
+    return None
+
+
+def _near(wrist: Wrist, state: State, wanted: State, rates: Sequence[float], dt: float) -> State:
+    """Return the state after joint rates, or as much of the way there from slowing down."""
+    slower = _braking(wrist, state.joint_rates, dt) or [0.0] * len(rates)
+
+    def target(share: float) -> Target:
+        way = zip(state.positions, slower, rates, strict=True)
+        moved = [at + dt * (slow + share * (fast - slow)) for at, slow, fast in way]
+        return wrist.resolve_assembly(moved, state.pose), wanted.steering_state
+
+    found = largest_share(within_limits(wrist, state, target, dt), 1.0)[1]
+    return found or brought_to_rest(wrist, state, dt)
+
+
+def _held_back(
+    joints: Sequence[Joint],
+    before: Rates,
+    wanted: Rates,
+    windows: Sequence[Window],
+    dt: float,
+) -> list[LimitAtWork]:
+    """Return the joints whose rate would change more quickly than it may."""
+    found = []
+    for joint, old, new, window in zip(
+        joints, before or (0.0,) * len(joints), wanted, windows, strict=True
+    ):
+        nearest = window.nearest(new)
+        if abs(new - nearest) > TOLERANCE * max(abs(new), abs(nearest)):
+            share = max(0.0, nearest / new) if new else 0.0
+            asked, allowed = (new - old) / dt, (nearest - old) / dt
+            found.append(
+                LimitAtWork(joint.name, LimitKind.ACCELERATION, asked, allowed, min(1.0, share))
+            )
+    return found

@@ -1,0 +1,81 @@
+"""Whether a step can be made: inside every limit, and with space left to stop in."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TypeAlias
+
+from wrist_control.errors import UnreachableError
+from wrist_control.resolving.limits import LimitAtWork, LimitKind, overruns
+from wrist_control.resolving.rate_windows import stopping_time
+from wrist_control.resolving.search import Attempt
+from wrist_control.resolving.state import State, increments
+from wrist_control.wrists.wrist import Positions, SteeringState, Wrist
+
+# Joint positions, and the steering state that leads to them.
+Target: TypeAlias = 'tuple[Positions, SteeringState]'
+
+
+def within_limits(
+    wrist: Wrist, state: State, target: Callable[[float], Target], dt: float
+) -> Attempt[State]:
+    """Return what makes the state at a share's target, or tells the limits that it would break.
+
+    Args:
+        wrist: The mechanism, with the limits to keep.
+        state: Where it is.
+        target: What a share of the step leads to.
+        dt: Duration of the step, s.
+    """
+
+    def attempt(share: float) -> tuple[State | None, list[LimitAtWork]]:
+        try:
+            positions, steering_state = target(share)
+            if not math.isfinite(sum(positions)):
+                raise UnreachableError('The command leads nowhere.', 'no way on')
+            broken = overruns(wrist, state.positions, positions, dt)
+            if broken:
+                return None, broken
+            after = State(positions, wrist.forward(positions), steering_state)
+            broken = overruns_on_the_way_to_rest(wrist, state, after, dt)
+            return (None, broken) if broken else (after, [])
+        except UnreachableError as error:
+            return None, [edge(error)]
+
+    return attempt
+
+
+def edge(error: UnreachableError) -> LimitAtWork:
+    """Return the limit behind which nothing can be reached."""
+    return LimitAtWork(error.limit, LimitKind.WORKSPACE, 0.0, 0.0, 0.0)
+
+
+def overruns_on_the_way_to_rest(
+    wrist: Wrist, before: State, after: State, dt: float
+) -> list[LimitAtWork]:
+    """Return the limits that joints would overrun that stop after a step as quickly as they may.
+
+    They stop on a straight line, after half the stopping time at the rates of the step. Of a
+    share s of the step, s dt + s² T / 2 are used of what dt + T / 2 would be.
+
+    Raises:
+        UnreachableError: They would stop where the mechanism cannot be.
+    """
+    if not wrist.limits_acceleration:
+        return []
+    rates = increments(before.positions, after.positions, dt)
+    half = 0.5 * stopping_time(wrist.joints, rates)
+    if half == 0.0:
+        return []
+    way = zip(after.positions, rates, strict=True)
+    rest = wrist.resolve_assembly([at + half * rate for at, rate in way], after.pose)
+    return [
+        limit._replace(share=_share(limit.share * (dt + half), dt, half))
+        for limit in overruns(wrist, before.positions, rest, math.inf)
+    ]
+
+
+def _share(used: float, dt: float, half: float) -> float:
+    """Return the s of s dt + s² T / 2 = used."""
+    return 2.0 * used / (dt + math.sqrt(dt * dt + 4.0 * half * max(0.0, used)))
