@@ -34,9 +34,11 @@ from wrist_control.wrists.wrist import Rates, Wrist
 # What `largest_share` finds: a share, what it makes, and every limit at work.
 Found: TypeAlias = 'tuple[float, State | None, list[LimitAtWork]]'
 
-# The way of a step is nearly straight: the factor is exact after few corrections, and after so
-# many where a step of 1/25 s turns the joints as fast as they are made for.
-CORRECTIONS = 16
+# The factor is exact after few corrections where the way of a step is nearly straight, and after
+# so many beside an edge, where the joints go with a root of the factor.
+CORRECTIONS = 8
+# By which powers of the factor a rate goes, at least and at most.
+POWERS = (0.25, 4.0)
 
 
 def eased(
@@ -63,7 +65,7 @@ def eased(
     along = _along_command(state, attempt, factor, wanted, windows, dt)
     if along:
         return min(1.0, along[0]), along[1], limits
-    share = nearest_factor(rates, windows)
+    share = _nearest_share(rates, windows)
     nearest = [window.nearest(share * rate) for rate, window in zip(rates, windows, strict=True)]
     return min(1.0, share * factor), _near(wrist, state, wanted, nearest, dt), limits
 
@@ -94,7 +96,7 @@ def _braking(wrist: Wrist, rates: Rates, dt: float) -> list[float]:
     if not any(rates):
         return []
     time = stopping_time(wrist.joints, rates)
-    left = 1.0 - dt / time if time > dt else 0.0
+    left = 1.0 - dt / time if time > dt * RATE_TOLERANCE else 0.0
     return [left * rate for rate in rates]
 
 
@@ -108,19 +110,31 @@ def _along_command(
 ) -> tuple[float, State] | None:
     """Return the factor that brings all rates inside their windows, and its state, or None."""
     made: State | None = wanted
+    power, moved, before = 1.0, 0.0, 0.0
     for _ in range(CORRECTIONS):
         if made is None:
             break
         rates = increments(state.positions, made.positions, dt)
         smallest, largest = common_factors(rates, windows)
-        if smallest > largest * RATE_TOLERANCE:
+        if smallest > largest * RATE_TOLERANCE or largest <= 0.0:
             break
-        share = min(max(1.0, smallest), largest)
-        if abs(share - 1.0) <= TOLERANCE:
+        missing = math.log(min(max(1.0, smallest), largest))
+        if abs(missing) <= TOLERANCE:
             return factor, made
-        factor *= share
+        if moved:
+            least, most = POWERS
+            power = min(max((before - missing) / moved, least), most)
+        moved, before = missing / power, missing
+        factor *= math.exp(moved)
         made, _ = attempt(factor)
     return None
+
+
+def _nearest_share(rates: Rates, windows: Sequence[Window]) -> float:
+    smallest, largest = common_factors(rates, windows)
+    if smallest <= largest:
+        return min(max(1.0, smallest), largest)
+    return nearest_factor(rates, windows)
 
 
 def _near(wrist: Wrist, state: State, wanted: State, rates: Sequence[float], dt: float) -> State:

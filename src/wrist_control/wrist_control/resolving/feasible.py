@@ -56,8 +56,8 @@ def overruns_on_the_way_to_rest(
 ) -> list[LimitAtWork]:
     """Return the limits that joints would overrun that stop after a step as quickly as they may.
 
-    They stop on a straight line, after half the stopping time at the rates of the step. Of a
-    share s of the step, s dt + s² T / 2 are used of what dt + T / 2 would be.
+    They stop on a straight line, after half the stopping time T at the rates of the step; at once
+    where one step is enough. Of a share s of it, s dt + s² T / 2 are used of dt + T / 2.
 
     Raises:
         UnreachableError: They would stop where the mechanism cannot be.
@@ -65,9 +65,10 @@ def overruns_on_the_way_to_rest(
     if not wrist.limits_acceleration:
         return []
     rates = increments(before.positions, after.positions, dt)
-    half = 0.5 * stopping_time(wrist.joints, rates)
-    if half == 0.0:
+    time = stopping_time(wrist.joints, rates)
+    if time <= dt:
         return []
+    half = 0.5 * time
     way = zip(after.positions, rates, strict=True)
     rest = wrist.resolve_assembly([at + half * rate for at, rate in way], after.pose)
     return [

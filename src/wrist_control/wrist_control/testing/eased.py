@@ -13,6 +13,8 @@ from wrist_control.resolving.limits import overruns
 from wrist_control.resolving.state import State, Step, increments
 from wrist_control.resolving.step import start, step
 from wrist_control.testing.broken import require
+from wrist_control.testing.held import SPEED as FASTEST_HELD
+from wrist_control.testing.held import a_held_command_does_not_make_joints_chatter
 from wrist_control.testing.motion import confined, no_step_breaks_a_limit
 from wrist_control.testing.places import Random, random_twist
 from wrist_control.wrists.joint import Joint
@@ -108,7 +110,7 @@ def _is_along(wrist: Wrist, taken: Step, twist: Sequence[float]) -> bool:
 
 
 def _can_be_made(wrist: Wrist, before: State, twist: Sequence[float], factor: float) -> bool:
-    """Return whether a factor keeps all limits with a little to spare, and leaves a way to stop."""
+    """Return whether a factor keeps all limits with something to spare, and room to stop."""
     try:
         near, _ = wrist.choose_branch_reference(
             before.positions, factor, DT, before.steering_state
@@ -185,10 +187,23 @@ def joints_that_take_their_time_come_to_the_free_joints_rates(
             )
 
 
+def a_held_command_does_not_make_joints_chatter_that_take_their_time(
+    wrist: Wrist, random: Random
+) -> None:
+    """Through locks and at limits, as joints do whose rates may change at once."""
+    rates = [FASTEST_HELD[joint.kind] for joint in wrist.joints]
+    held = wrist.with_limits(
+        accelerations=[rate / SPEEDING_UP for rate in rates],
+        decelerations=[rate / SLOWING_DOWN for rate in rates],
+    )
+    a_held_command_does_not_make_joints_chatter(held, random)
+
+
 EASED = (
     no_rate_changes_faster_than_it_may,
     the_direction_is_left_only_where_no_factor_can_keep_it,
     a_hand_without_a_command_stops_in_time_and_within_its_limits,
     joints_that_take_their_time_break_no_limit,
     joints_that_take_their_time_come_to_the_free_joints_rates,
+    a_held_command_does_not_make_joints_chatter_that_take_their_time,
 )
