@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import fcntl
+import math
 import os
 import tempfile
 import time
@@ -82,11 +83,17 @@ class Graph:
         return node
 
     def start(self, kind: Callable[..., Node], *arguments: str, **parameters: Any) -> Node:
-        """Start one of our nodes with parameters; `namespace` is not a parameter."""
+        """Start one of our nodes with parameters.
+
+        `namespace` is not a parameter, and `free_joints` is: rates that may change at once.
+        """
         namespace = parameters.pop('namespace', '')
         if kind is Resolver:
             # Most tests have no joints beside the resolver; those that do ask for the default.
             parameters.setdefault('require_joint_states', False)
+            if parameters.pop('free_joints', False):
+                parameters['joint_acceleration_limits'] = [math.inf]
+                parameters['joint_deceleration_limits'] = [math.inf]
         overrides = [rclpy.Parameter(name, value=value) for name, value in parameters.items()]
         node = kind(
             *arguments,

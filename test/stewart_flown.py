@@ -20,7 +20,7 @@ class Flown:
     def __init__(self, graph, **parameters):
         self.graph = graph
         self.clock = graph.lockstep(1.0 / RATE)
-        common = {'use_sim_time': True, 'rate': RATE, 'command_timeout': 10.0}
+        common = {'use_sim_time': True, 'rate': RATE, 'command_timeout': 10.0, 'free_joints': True}
         self.node = graph.start(Resolver, 'stewart', **{**common, **parameters})
         self.clock.listen({'wrist_status': WristStatus, 'hand_pose': PoseStamped})
         self.clock.listen({'joint_command': JointState})

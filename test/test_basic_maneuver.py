@@ -23,7 +23,14 @@ def fly_through(graph, limit, maneuver='basic_test', wrist='three_gimbal', ticks
     common = {'use_sim_time': True, 'rate': RATE}
     names = [joint.name for joint in make_wrist(wrist).joints]
     home = list(make_wrist(wrist).home)
-    graph.start(Resolver, wrist, **common, joint_rate_limits=[limit], require_joint_states=True)
+    graph.start(
+        Resolver,
+        wrist,
+        **common,
+        joint_rate_limits=[limit],
+        free_joints=True,
+        require_joint_states=True,
+    )
     graph.start(
         JointSimulator,
         **common,

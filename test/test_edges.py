@@ -106,6 +106,6 @@ def test_a_joint_limit_is_a_limit_at_work_that_is_not_overshot_and_left_freely(g
     assert (status.limits[0].joint, status.limits[0].kind) == ('theta', LimitAtWork.POSITION)
     assert max(command.position[1] for command in clock.heard['joint_command']) <= 0.2 + 2e-9
     operator.set_parameters([rclpy.Parameter('constant_rates', value=[0.0, -SPEED, 0.0])])
-    for _ in range(10):
+    for _ in range(20):
         clock.tick()
     assert clock.heard['wrist_status'][-1].state == WristStatus.TRACKING

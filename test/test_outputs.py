@@ -67,6 +67,7 @@ def test_the_status_says_what_is_lost_and_by_which_limit(graph):
         use_sim_time=True,
         rate=rate,
         joint_rate_limits=limits,
+        free_joints=True,
         hand_frame='palm',
         forearm_frame='arm',
         joint_prefix='left_',

@@ -151,7 +151,8 @@ def test_a_changed_limit_is_at_work_in_the_next_steps(graph):
     graph.start(Operator, maneuver='constant', constant_rates=[0.3, 0.0, 0.0])
     graph.until(lambda: statuses and statuses[-1].state == WristStatus.TRACKING)
     assert changed(graph, joint_rate_limits=[0.1]).successful
-    graph.until(lambda: statuses[-1].state == WristStatus.SCALED)
+    graph.until(lambda: statuses[-1].achieved.angular.x == pytest.approx(0.1))
+    assert statuses[-1].state == WristStatus.SCALED
     assert statuses[-1].scale_factor == pytest.approx(1.0 / 3.0)
     limit = statuses[-1].limits[0]
     assert (limit.joint, limit.kind) == ('phi', limit.RATE)

@@ -69,9 +69,7 @@ def test_the_paths_of_the_guide_are_those_of_the_repository():
 
 def test_the_new_wrist_gets_its_executable(copy):
     done = run(copy / 'src' / 'wrist_control', '-c', ENTRY_POINTS)
-    assert f'{NAME}_resolver = wrist_control.nodes.resolver:mains.{NAME}' in done.stdout, (
-        done.stderr
-    )
+    assert f'{NAME}_resolver = wrist_control_start:{NAME}_resolver' in done.stdout, done.stderr
 
 
 def test_the_new_wrist_flies(copy):

@@ -27,11 +27,8 @@ def wrist_names():
 
 def console_scripts():
     """Return one executable per node, and one resolver per wrist."""
-    nodes = [f'{node} = {PACKAGE}.nodes.{node}:main' for node in NODES]
-    resolvers = [
-        f'{wrist}_resolver = {PACKAGE}.nodes.resolver:mains.{wrist}' for wrist in wrist_names()
-    ]
-    return nodes + resolvers
+    names = NODES + [f'{wrist}_resolver' for wrist in wrist_names()]
+    return [f'{name} = {PACKAGE}_start:{name}' for name in names]
 
 
 setup(
@@ -42,6 +39,7 @@ setup(
     maintainer='wrist_control maintainers',
     maintainer_email='maintainers@example.org',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    py_modules=[f'{PACKAGE}_start'],
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),

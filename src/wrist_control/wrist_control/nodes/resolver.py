@@ -6,7 +6,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from types import SimpleNamespace
 from typing import Any
 
 from rclpy.service import Service
@@ -38,7 +37,6 @@ from wrist_control.ros.polled_services import PolledServices
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
 from wrist_control.ros.wrong_types import WrongTypes
-from wrist_control.wrists import WRISTS
 
 LEVELS = {
     WristState.LIMITED: WARN,
@@ -148,6 +146,7 @@ class Resolver(GuardedNode):
                     stamp_time=convert.seconds_of(stamp),
                     receipt_time=self._step_clock.receipt_time(),
                     withheld=self._inputs.withheld(),
+                    pause=self._step_clock.pause,
                 )
             )
             self._outputs.publish(self._result, Time(nanoseconds=stamp).to_msg())
@@ -212,7 +211,3 @@ class Resolver(GuardedNode):
 def main(wrist_name: str) -> None:
     """Run the resolver of one wrist."""
     sys.exit(run(partial(Resolver, wrist_name)))
-
-
-# One entry point for each registered wrist: setup.py names them.
-mains = SimpleNamespace(**{name: partial(main, name) for name in WRISTS})

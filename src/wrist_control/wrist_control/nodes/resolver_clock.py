@@ -20,6 +20,8 @@ class StepClock:
 
     Attributes:
         stamp: When the last step was made, ns of the node's clock.
+        pause: How long before it the one before was made, s; of the node's clock and a steady one,
+            what says less: a clock that jumps makes no pause, and neither does one that waits.
         timing: How punctual the steps are, and what they follow.
     """
 
@@ -37,6 +39,8 @@ class StepClock:
             step: Makes a step; called with its stamp, ns.
         """
         self.stamp = 0
+        self.pause = 0.0
+        self._steady_stamp = 0
         self._node = node
         self._supervisor = supervisor
         self._make_step = step
@@ -92,7 +96,9 @@ class StepClock:
             self._supervisor.stop(self._watch.last, Mode.FOLLOWING)
 
     def _step(self, stamp: int) -> None:
-        self.stamp = stamp
+        steady = self._node.steady.now().nanoseconds
+        self.pause = convert.seconds_of(min(stamp - self.stamp, steady - self._steady_stamp))
+        self.stamp, self._steady_stamp = stamp, steady
         self.timing.step(stamp)
         self._make_step(stamp)
 

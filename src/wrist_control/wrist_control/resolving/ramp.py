@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from wrist_control.resolving.period import Mode
-from wrist_control.resolving.state import Twist
+from wrist_control.resolving.period import Mode, SupervisorSettings
+from wrist_control.resolving.state import State, Twist
 
 # A share that is rounding alone.
 NOTHING = 1e-9
+# Joints that were told nothing for so long stand still, s; sooner a step was only late.
+PAUSE = 0.1
 
 
 class Ramp(NamedTuple):
@@ -38,3 +40,22 @@ class Ramp(NamedTuple):
         """Return what is still made of the twist that was followed when the stop began."""
         vx, vy, vz, p, q, r = (self.share * x for x in twist)
         return vx, vy, vz, p, q, r
+
+
+def after_a_pause(
+    state: State, ramp: Ramp | None, settings: SupervisorSettings, pause: float
+) -> tuple[State, Ramp | None]:
+    """Return the state of joints that were told nothing for a while, and how far a stop came.
+
+    They went on to where they were told, and no further: over all of the pause that is slower.
+
+    Args:
+        state: Where they are.
+        ramp: The stop on its way, if there is one.
+        settings: For the durations of steps and stops.
+        pause: Time since the step before, s; if that is not much more than a step nothing changes.
+    """
+    if pause <= settings.dt + PAUSE:
+        return state, ramp
+    slower = tuple([rate * settings.dt / pause for rate in state.joint_rates])
+    return state._replace(joint_rates=slower), ramp and ramp.after(pause, settings.stop_time)

@@ -31,7 +31,7 @@ class WristState(IntEnum):
 def state_of(step: Step, commanded: Sequence[float]) -> WristState:
     """Return the state that a step shows."""
     if not any(commanded):
-        return WristState.IDLE
+        return WristState.TRACKING if any(step.joint_rates) else WristState.IDLE
     kinds = {limit.kind for limit in step.limits}
     held = bool(kinds & {LimitKind.POSITION, LimitKind.WORKSPACE})
     if held:
@@ -45,7 +45,9 @@ def sentence(wrist: Wrist, step: Step, commanded: Sequence[float]) -> str:
     """Return what is happening and what to do, in one sentence."""
     state = state_of(step, commanded)
     if state == WristState.IDLE:
-        return f'{"Coming to rest" if any(step.joint_rates) else "Ready"}: no motion is commanded.'
+        return 'Ready: no motion is commanded.'
+    if not any(commanded):
+        return 'Coming to rest: no motion is commanded.'
     if state == WristState.SINGULAR:
         return _singular(wrist, step)
     if state == WristState.LIMITED:

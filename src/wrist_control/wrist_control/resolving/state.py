@@ -10,8 +10,6 @@ from wrist_control.rotations import Pose, rates_between, to_hand
 from wrist_control.wrists.wrist import Positions, Rates, SteeringState, Wrist
 
 Twist = tuple[float, float, float, float, float, float]
-# A step that comes later than this many steps' time is after a pause: sooner it was only late.
-PAUSE = 1.5
 ZERO_TWIST: Twist = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -62,22 +60,6 @@ def resting(wrist: Wrist, state: State) -> Step:
     if state.joint_rates:
         state = state._replace(joint_rates=())
     return Step(state, (0.0,) * len(state.positions), 1.0, margin, False, (), ZERO_TWIST)
-
-
-def after_a_pause(state: State, dt: float, pause: float) -> State:
-    """Return the state of joints that were told nothing for longer than a step.
-
-    They went on to where they were told, and no further: over all of the pause that is slower.
-
-    Args:
-        state: Where they are.
-        dt: Duration of a step, s.
-        pause: Time since the step before, s.
-    """
-    if not state.joint_rates or pause <= PAUSE * dt:
-        return state
-    slower = tuple([rate * dt / pause for rate in state.joint_rates])
-    return state._replace(joint_rates=slower)
 
 
 def increments(before: Positions, after: Positions, dt: float) -> Rates:

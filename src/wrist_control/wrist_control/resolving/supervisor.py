@@ -16,9 +16,9 @@ from wrist_control.resolving.homing import has_reached, step_home
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.period import Mode, PeriodResult, SupervisorSettings
 from wrist_control.resolving.permission import Permission
-from wrist_control.resolving.ramp import Ramp
+from wrist_control.resolving.ramp import Ramp, after_a_pause
 from wrist_control.resolving.report import WristState, sentence, state_of
-from wrist_control.resolving.state import ZERO_TWIST, State, Twist, after_a_pause, resting
+from wrist_control.resolving.state import ZERO_TWIST, State, Twist, resting
 from wrist_control.resolving.step import start, step
 from wrist_control.wrists.wrist import Wrist
 
@@ -53,7 +53,6 @@ class Supervisor:
         self._ramp: Ramp | None = None
         self._commanded: Twist = ZERO_TWIST
         self._reason = ''
-        self._stepped = 0.0
         self._permission = Permission()
 
     def take_command(self, command: Command) -> None:
@@ -172,16 +171,18 @@ class Supervisor:
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
-    def tick(self, *, stamp_time: float, receipt_time: float, withheld: str = '') -> PeriodResult:
+    def tick(
+        self, *, stamp_time: float, receipt_time: float, withheld: str = '', pause: float = 0.0
+    ) -> PeriodResult:
         """Return what this period brings.
 
         Args:
             stamp_time: Now, s.
             receipt_time: Now, s.
             withheld: Why the hand may not move now, one sentence; empty when it may.
+            pause: Time since the period before, s, where it is more than a step's.
         """
-        self.state = after_a_pause(self.state, self.settings.dt, receipt_time - self._stepped)
-        self._stepped = receipt_time
+        self.state, self._ramp = after_a_pause(self.state, self._ramp, self.settings, pause)
         allowed = self._permission.share(bool(withheld), receipt_time, self.settings.stop_time)
         try:
             if self.mode in (Mode.FOLLOWING, Mode.HOMING):
@@ -257,8 +258,7 @@ class Supervisor:
     def _ramped(self, result: PeriodResult) -> PeriodResult:
         assert self._ramp is not None
         share, then, message = self._ramp
-        # With a step without motion a zero is sent: now the joints may be let go.
-        if share == 0.0 and not any(result.step.joint_rates):
+        if share == 0.0 and not any(result.step.joint_rates):  # a zero is sent with this step
             self._settle(then, message)
         state = WristState.STALE if then is Mode.FOLLOWING else WristState[then.name]
         return result._replace(wrist_state=state, message=message)
