@@ -89,3 +89,40 @@ def test_without_limits_joints_go_home_at_half_a_radian_and_legs_at_two_centimet
     higher = [length + 0.01 for length in platform.home]
     lifted = step_home(platform, start(platform), higher, 0.01).state
     assert list(lifted.positions) == pytest.approx([x + 0.0002 for x in platform.home])
+
+
+def test_joints_that_take_their_time_speed_up_and_slow_down_on_a_straight_line():
+    wrist = WRIST.with_limits(rates=0.5, accelerations=2.0, decelerations=5.0)
+    state, dt, rates = start(wrist, (0.4, -0.2, 0.1)), 0.01, [(0.0, 0.0, 0.0)]
+    aim = (0.0, 0.0, 0.0)
+    while not has_reached(state, aim):
+        taken = step_home(wrist, state, aim, dt)
+        state = taken.state
+        rates.append(taken.joint_rates)
+        np.testing.assert_allclose(np.cross(state.positions, (0.4, -0.2, 0.1)), 0.0, atol=1e-9)
+        assert len(rates) < 200
+    changes = np.diff(np.abs(rates), axis=0) / dt
+    assert changes.max() == pytest.approx(2.0, rel=1e-6)
+    assert -5.0 * (1.0 + 1e-6) <= changes.min() < -4.0
+    assert np.abs(rates).max() == pytest.approx(0.5)
+
+
+def test_a_hand_that_moves_elsewhere_is_led_home_without_a_jerk():
+    wrist = WRIST.with_limits(rates=0.5, accelerations=2.0, decelerations=5.0)
+    state = start(wrist, (0.4, -0.2, 0.1))._replace(joint_rates=(0.4, 0.3, 0.0))
+    rates, dt = [state.joint_rates], 0.01
+    while not has_reached(state, (0.0, 0.0, 0.0)):
+        taken = step_home(wrist, state, (0.0, 0.0, 0.0), dt)
+        state = taken.state
+        rates.append(taken.joint_rates)
+        assert len(rates) < 400
+    assert np.abs(np.diff(rates, axis=0)).max() / dt <= 5.0 * (1.0 + 1e-6)
+
+
+def test_a_stop_on_the_way_home_ends_at_rest():
+    wrist = WRIST.with_limits(rates=0.5, accelerations=2.0, decelerations=5.0)
+    state = start(wrist, (0.4, 0.0, 0.0))
+    for share in (*[1.0] * 30, *[0.0] * 11):
+        state = step_home(wrist, state, (0.0, 0.0, 0.0), 0.01, share).state
+    assert state.joint_rates == ()
+    assert 0.1 < state.positions[0] < 0.35

@@ -72,7 +72,7 @@ def common_factors(rates: Rates, windows: Sequence[Window]) -> tuple[float, floa
 
 
 def nearest_factor(rates: Rates, windows: Sequence[Window]) -> float:
-    """Return the factor with which rates come nearest to their windows, at least 0.
+    """Return the factor with which rates come nearest to their windows; of several that next to 1.
 
     The squared distance is a convex function of the factor, in pieces of second degree: its slope
     is a straight line between two factors at which a rate enters or leaves its window.
@@ -85,12 +85,14 @@ def nearest_factor(rates: Rates, windows: Sequence[Window]) -> float:
             for rate, there, window in zip(rates, moved, windows, strict=True)
         )
 
+    too_much = slope(1.0) > 0.0
+    least = 0.0 if too_much else 1.0
     ends = [
         end / rate for rate, window in zip(rates, windows, strict=True) if rate for end in window
     ]
-    knots = [0.0, *sorted(knot for knot in ends if 0.0 < knot < math.inf)]
+    knots = [least, *sorted(knot for knot in ends if least < knot < math.inf)]
     for left, right in pairwise(knots):
         below, above = slope(left), slope(right)
-        if above >= 0.0:
+        if above > 0.0 or (above == 0.0 and not too_much):
             return left if below >= 0.0 else left + (right - left) * below / (below - above)
     return knots[-1]

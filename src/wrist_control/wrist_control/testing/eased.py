@@ -61,12 +61,19 @@ def no_rate_changes_faster_than_it_may(wrist: Wrist, random: Random) -> None:
     """The time that each joint needs from one rate to the next is not more than a step."""
     wrist = sluggish(wrist)
     for before, taken, twist in flown(wrist, random):
-        time = _longest_change(wrist.joints, before.joint_rates, taken.joint_rates)
+        time = longest_change(wrist.joints, before.joint_rates, taken.joint_rates)
         where = f'after {twist} at {tuple(before.positions)}'
         require(time <= DT * (1.0 + 1e-6), f'a rate would need {time:.6g} s to change, {where}')
 
 
-def _longest_change(joints: Sequence[Joint], before: Rates, after: Rates) -> float:
+def longest_change(joints: Sequence[Joint], before: Rates, after: Rates) -> float:
+    """Return the time that the slowest joint needs from one rate to another, s.
+
+    Args:
+        joints: The joints, with the limits of their accelerations.
+        before: Their rates, rad/s or m/s; empty at rest.
+        after: The rates that they shall have.
+    """
     return max(
         _time_to_change(joint, old, new)
         for joint, old, new in zip(joints, before or (0.0,) * len(joints), after, strict=True)
@@ -118,7 +125,7 @@ def _can_be_made(wrist: Wrist, before: State, twist: Sequence[float], factor: fl
         pose = wrist.target_pose(before.pose, [factor * x for x in twist], DT)
         after = wrist.inverse(pose, near)
         rates = increments(before.positions, after, DT)
-        if _longest_change(wrist.joints, before.joint_rates, rates) > 0.99 * DT:
+        if longest_change(wrist.joints, before.joint_rates, rates) > 0.99 * DT:
             return False
         braking = max(
             abs(rate) / joint.deceleration_limit
@@ -152,7 +159,7 @@ def a_hand_without_a_command_stops_in_time_and_within_its_limits(
             len(ways) <= longest / DT + 2.0, f'it takes {len(ways) - 1} steps to stop, {where}'
         )
         for before, after in pairwise(ways):
-            time = _longest_change(wrist.joints, before.joint_rates, after.joint_rates)
+            time = longest_change(wrist.joints, before.joint_rates, after.joint_rates)
             require(time <= DT * (1.0 + 1e-6), f'it stops too quickly, {where}')
         for clearance in wrist.clearances(ways[-1].state.positions):
             require(clearance.remaining >= -2e-9, f'it stops beyond {clearance.name}, {where}')
