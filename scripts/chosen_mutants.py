@@ -29,6 +29,8 @@ OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
 INPUTS = 'nodes/resolver_inputs.py'
 SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
 SEARCH, FEEDBACK = 'resolving/search.py', 'resolving/feedback.py'
+WINDOWS, FEASIBLE = 'resolving/rate_windows.py', 'resolving/feasible.py'
+EASING = 'resolving/easing.py'
 JOYSTICK = 'operating/joystick.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
@@ -228,6 +230,19 @@ CHOSEN = tuple(
             'a pointer in lock spins the hand',
         ),
         (FOUR, 'math.copysign(1.0, cosine) * s < SIDE', 's < SIDE', 'beyond lock it chatters'),
+        # How quickly a joint may change its rate.
+        (WINDOWS, 'joint.deceleration_limit * dt', 'joint.acceleration_limit * dt', 'a late stop'),
+        (WINDOWS, ' * (1.0 - rate / slowing_down)', '', 'a turn back with a jerk'),
+        (FEASIBLE, 'half = 0.5 * time', 'half = 0.25 * time', 'a limit is met at speed'),
+        (FEASIBLE, 'if time <= dt:', 'if time <= 9.0 * dt:', 'a limit is met at speed'),
+        (EASING, 'if not any(way):', 'if True:', 'a stop without a ramp'),
+        (EASING, '    if not held:', '    if True:', 'any rate at once'),
+        (EASING, 'if along:', 'if False:', 'the hand leaves its direction without need'),
+        ('resolving/ramp.py', 'PAUSE = 0.1', 'PAUSE = 9.0', 'a jerk after a freeze'),
+        (SUPERVISOR, ' and not any(result.step.joint_rates)', '', 'let go while it moves'),
+        ('resolving/homing.py', 'part = min(reach, ', 'part = max(0.0, reach, ', 'home too fast'),
+        (CLOCK, 'self.pause = convert', 'self.pause = 0.0 * convert', 'a jerk after a freeze'),
+        (SETTINGS, '= 0.25, 0.1', '= 0.025, 0.01', 'ten times as quick as careful'),
         # What people and other nodes are told.
         ('resolving/report.py', 'NOTICEABLE = 1e-3', 'NOTICEABLE = 1e-2', 'a lost part is hidden'),
         ('ros/diagnostics.py', "'state', level", "'state', OK", 'a fault is shown green'),

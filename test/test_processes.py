@@ -62,6 +62,21 @@ def test_a_bad_parameter_ends_a_node_with_one_sentence(process_environment):
     assert len(said.strip().splitlines()) == 1
 
 
+def test_a_node_that_is_asked_for_security_and_has_none_does_not_start(
+    process_environment, tmp_path
+):
+    (tmp_path / 'enclaves').mkdir()
+    asked = {
+        'ROS_SECURITY_ENABLE': 'true',
+        'ROS_SECURITY_STRATEGY': 'Enforce',
+        'ROS_SECURITY_KEYSTORE': str(tmp_path),
+    }
+    process = start(process_environment | asked, 'three_gimbal_resolver')
+    _, said = process.communicate(timeout=30.0)
+    assert process.returncode == 1
+    assert 'security' in said
+
+
 @pytest.mark.parametrize('wrist', WRISTS)
 def test_every_wrist_has_a_ready_parameter_file_that_its_nodes_accept(
     process_environment, until_ready, wrist

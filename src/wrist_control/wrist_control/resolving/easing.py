@@ -17,7 +17,6 @@ from wrist_control.resolving.limits import (
     TOLERANCE,
     LimitAtWork,
     LimitKind,
-    overruns,
 )
 from wrist_control.resolving.rate_windows import (
     Window,
@@ -80,15 +79,12 @@ def brought_to_rest(wrist: Wrist, state: State, dt: float) -> State:
     if not any(way):
         return state
 
-    def attempt(share: float) -> tuple[State | None, list[LimitAtWork]]:
+    def target(share: float) -> Target:
         moved = [at + share * rate * dt for at, rate in zip(state.positions, way, strict=True)]
-        positions = wrist.resolve_assembly(moved, state.pose)
-        broken = overruns(wrist, state.positions, positions, math.inf)
-        if broken:
-            return None, broken
-        return State(positions, wrist.forward(positions), state.steering_state), []
+        return wrist.resolve_assembly(moved, state.pose), state.steering_state
 
-    return largest_share(attempt, 1.0)[1] or state
+    # In endless time no rate is too fast, and no edge is neared too quickly: only where counts.
+    return largest_share(within_limits(wrist, state, target, math.inf), 1.0)[1] or state
 
 
 def _braking(wrist: Wrist, rates: Rates, dt: float) -> list[float]:
