@@ -41,6 +41,10 @@ bench: setup  ## measure how fast it is, as ratios within one run
 mutants: setup  ## put small faults into the code and see that the tests find them
 	@./env python3 scripts/mutants.py
 
+.PHONY: hour
+hour: setup  ## hold every wrist's stick for a simulated hour: nothing may drift or grow
+	@./env python3 scripts/hour.py
+
 .PHONY: compare
 compare: setup  ## fly every wrist through the same maneuvers and compare them
 	@./env python3 -m wrist_control.studies.compare
