@@ -230,6 +230,14 @@ def test_twelve_anchors_are_the_same_wrist_as_the_ring():
         ({'platform_anchors': [[0.0, 0.0, 0.0]]}, 'platform_anchors has 3 numbers'),
         ({'base_anchors': [math.nan] * 18}, 'base_anchors has 18 numbers'),
         ({'platform_angle': 0.3, 'base_angle': 0.3}, 'do not hold the platform'),
+        *(
+            ({name: 0.0}, f'{name} is 0.0; valid is 1e-06 to inf m')
+            for name in ('platform_radius', 'base_radius', 'home_height')
+        ),
+        *(
+            ({name: -1e-9}, f'{name} is -1e-09; valid is 0 to 2.0944 rad')
+            for name in ('platform_angle', 'base_angle')
+        ),
     ],
 )
 def test_what_cannot_be_a_platform_is_refused(wrong, says):
