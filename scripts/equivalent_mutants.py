@@ -68,6 +68,13 @@ EQUIVALENT = (
         'pass',
         'further steps where every row has ended cost time alone',
     ),
+    Equivalent(
+        'stewart/batch.py',
+        'bound = np.where(slack > 0.0, bound / slack, math.inf)',
+        'slack > 0.0',
+        '(slack >= 0.0)',
+        'what is divided by no slack is inf as well',
+    ),
     *(
         Equivalent(
             'stewart/forward_kinematics.py',
@@ -84,6 +91,20 @@ EQUIVALENT = (
         'self._hadamard_ratio(other.pose) * side',
         '(self._hadamard_ratio(other.pose) / side)',
         'the sign of a quotient is that of the product',
+    ),
+    Equivalent(
+        'stewart/forward_kinematics.py',
+        'if impossible_pair(self.platform, self.base, lengths):',
+        'impossible_pair(self.platform, self.base, lengths)',
+        '(impossible_pair(self.base, self.platform, lengths))',
+        'what it asks of the two platforms is the same of both',
+    ),
+    Equivalent(
+        'stewart/forward_kinematics.py',
+        'many = np.broadcast_to(np.asarray(lengths, dtype=float), (starts.shape[1], 6))',
+        '1',
+        '(-1)',
+        'the second of two axes is the last',
     ),
     *(
         Equivalent(
