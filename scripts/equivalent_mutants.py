@@ -83,7 +83,11 @@ EQUIVALENT = (
             after,
             'higher costs time alone',
         )
-        for before, after in (('2.0 * tracking.LOW', '(2.0 / tracking.LOW)'), ('2.0', '(10.0)'))
+        for before, after in (
+            ('2.0 * tracking.LOW', '(2.0 / tracking.LOW)'),
+            ('2.0', '(20.0)'),
+            ('2.0', '(3.0)'),
+        )
     ),
     Equivalent(
         'stewart/forward_kinematics.py',
@@ -105,6 +109,26 @@ EQUIVALENT = (
         '1',
         '(-1)',
         'the second of two axes is the last',
+    ),
+    *(
+        Equivalent(
+            'stewart/general.py',
+            'return (u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1)',
+            '(u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1)',
+            after,
+            'a distance is the same in any order',
+        )
+        for after in (
+            '(u3 * v1 - u1 * v3, u2 * v3 - u3 * v2, u1 * v2 - u2 * v1)',
+            '(u2 * v3 - u3 * v2, u1 * v2 - u2 * v1, u3 * v1 - u1 * v3)',
+        )
+    ),
+    Equivalent(
+        'stewart/quadratics.py',
+        'weight = np.array([[1.0], [math.sqrt(2.0)], [math.sqrt(2.0)]])',
+        '1.0',
+        '(-1.0)',
+        'a norm does not see a sign',
     ),
     *(
         Equivalent(
