@@ -130,6 +130,13 @@ EQUIVALENT = (
         '(-1.0)',
         'a norm does not see a sign',
     ),
+    Equivalent(
+        'wrists/four_gimbal.py',
+        'bound = joint.upper if speed * cosine > 0.0 else joint.lower',
+        'speed * cosine > 0.0',
+        '(speed * cosine >= 0.0)',
+        'a joint at rest nears neither limit, and what is left of it is not looked at',
+    ),
     *(
         Equivalent(
             'wrists/pitch_yaw.py',
