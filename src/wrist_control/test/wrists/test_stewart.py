@@ -151,6 +151,13 @@ def test_the_lost_axis_at_a_quarter_turn_is_the_normal():
     assert np.abs(WRIST.lost_axis(lengths)) == pytest.approx((0, 0, 1), abs=1e-3)
 
 
+def test_where_no_turn_is_lost_the_lost_axis_is_still_a_unit_vector():
+    """Six legs that hold all but a shift along x: rows of (n, p × n) without its first column."""
+    lines = tuple(tuple(row) for row in np.eye(6)[[1, 2, 3, 4, 5, 5]].tolist())
+    axis = WRIST.lost_axis(LegConfiguration(tuple(WRIST.home), HOME, lines, WRIST.size))
+    assert math.hypot(*axis) == 1.0
+
+
 @given(twists)
 @settings(max_examples=30)
 def test_all_six_rates_are_scaled_alike(twist):
