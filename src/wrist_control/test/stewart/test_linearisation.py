@@ -5,10 +5,10 @@ import pytest
 
 from wrist_control import make_wrist
 from wrist_control.rotations import Pose, unit
-from wrist_control.stewart import quadratics, stages
+from wrist_control.stewart import quadratics, stages, tracking
 from wrist_control.stewart.forward_kinematics import ForwardKinematics, Status
 
-from .platforms import FK, HOME, SCATTERED, WRIST, lengths_of, random_poses
+from .platforms import FK, HOME, SCATTERED, SIZE, WRIST, lengths_of, random_poses
 
 STEP = 1e-6
 UNKNOWNS = [2, 4, 5]  # u1, u2, v2 among the nine
@@ -63,6 +63,26 @@ def test_norms_are_the_largest_that_any_change_shows(wrist):
     heights = np.sqrt(s * s + 2.0 * m * m + 2.0 * n * n).max()
     assert 0.995 * known.flat_norm < flat <= known.flat_norm * (1.0 + 1e-12)
     assert 0.995 * known.s_norm < heights <= known.s_norm * (1.0 + 1e-12)
+
+
+def test_an_inverse_serves_for_several_corrections_and_is_renewed_once(monkeypatch):
+    """It costs twice as much as a look at what is left; an answer again needs none at all."""
+    made = []
+
+    def inverse(*given):
+        made.append(given)
+        return quadratics.newton_inverse(*given)
+
+    monkeypatch.setattr(tracking, 'newton_inverse', inverse)
+    for pose in random_poses(20, 1e-3, 5e-3):
+        goal = quadratics.right_side(FK.planar, lengths_of(pose))
+        made.clear()
+        track = tracking.solve_planar(FK.planar, goal, stages.unknowns(HOME, SIZE))
+        assert track.followed
+        assert len(made) == 2 <= track.iterations
+        made.clear()
+        assert tracking.solve_planar(FK.planar, goal, track.at, track.tangent).followed
+        assert not made
 
 
 def test_poses_near_home_need_no_solve_of_their_own(monkeypatch):
