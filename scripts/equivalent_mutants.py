@@ -125,6 +125,13 @@ EQUIVALENT = (
     ),
     Equivalent(
         'stewart/quadratics.py',
+        'radii = (p * p).sum(axis=1) + (b * b).sum(axis=1)',
+        '1',
+        '(-1)',
+        'the second of two axes is the last',
+    ),
+    Equivalent(
+        'stewart/quadratics.py',
         'weight = np.array([[1.0], [math.sqrt(2.0)], [math.sqrt(2.0)]])',
         '1.0',
         '(-1.0)',
