@@ -68,6 +68,13 @@ EQUIVALENT = (
         'pass',
         'further steps where every row has ended cost time alone',
     ),
+    Equivalent(
+        'stewart/batch.py',
+        'bound = np.where(slack > 0.0, bound / slack, math.inf)',
+        'slack > 0.0',
+        '(slack >= 0.0)',
+        'what is divided by no slack is inf as well',
+    ),
     *(
         Equivalent(
             'stewart/forward_kinematics.py',
@@ -76,7 +83,11 @@ EQUIVALENT = (
             after,
             'higher costs time alone',
         )
-        for before, after in (('2.0 * tracking.LOW', '(2.0 / tracking.LOW)'), ('2.0', '(10.0)'))
+        for before, after in (
+            ('2.0 * tracking.LOW', '(2.0 / tracking.LOW)'),
+            ('2.0', '(20.0)'),
+            ('2.0', '(3.0)'),
+        )
     ),
     Equivalent(
         'stewart/forward_kinematics.py',
@@ -84,6 +95,61 @@ EQUIVALENT = (
         'self._hadamard_ratio(other.pose) * side',
         '(self._hadamard_ratio(other.pose) / side)',
         'the sign of a quotient is that of the product',
+    ),
+    Equivalent(
+        'stewart/forward_kinematics.py',
+        'if impossible_pair(self.platform, self.base, lengths):',
+        'impossible_pair(self.platform, self.base, lengths)',
+        '(impossible_pair(self.base, self.platform, lengths))',
+        'what it asks of the two platforms is the same of both',
+    ),
+    Equivalent(
+        'stewart/forward_kinematics.py',
+        'many = np.broadcast_to(np.asarray(lengths, dtype=float), (starts.shape[1], 6))',
+        '1',
+        '(-1)',
+        'the second of two axes is the last',
+    ),
+    *(
+        Equivalent(
+            'stewart/general.py',
+            'return (u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1)',
+            '(u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1)',
+            after,
+            'a distance is the same in any order',
+        )
+        for after in (
+            '(u3 * v1 - u1 * v3, u2 * v3 - u3 * v2, u1 * v2 - u2 * v1)',
+            '(u2 * v3 - u3 * v2, u1 * v2 - u2 * v1, u3 * v1 - u1 * v3)',
+        )
+    ),
+    Equivalent(
+        'stewart/general.py',
+        'if left <= 0.125 * floor or floor > left > 0.5 * last:',
+        'left <= 0.125 * floor',
+        '(left < 0.125 * floor)',
+        'what is left is never just that, and one more correction would cost time alone',
+    ),
+    Equivalent(
+        'stewart/quadratics.py',
+        'radii = (p * p).sum(axis=1) + (b * b).sum(axis=1)',
+        '1',
+        '(-1)',
+        'the second of two axes is the last',
+    ),
+    Equivalent(
+        'stewart/quadratics.py',
+        'weight = np.array([[1.0], [math.sqrt(2.0)], [math.sqrt(2.0)]])',
+        '1.0',
+        '(-1.0)',
+        'a norm does not see a sign',
+    ),
+    Equivalent(
+        'wrists/four_gimbal.py',
+        'bound = joint.upper if speed * cosine > 0.0 else joint.lower',
+        'speed * cosine > 0.0',
+        '(speed * cosine >= 0.0)',
+        'a joint at rest nears neither limit, and what is left of it is not looked at',
     ),
     *(
         Equivalent(

@@ -69,6 +69,12 @@ def test_a_reset_of_time_lost_does_not_set_a_pilot_back():
     assert pilot.done
 
 
+def test_a_clock_that_nothing_was_asked_of_is_at_the_start():
+    clock = ManeuverClock(TWO, 0.1)
+    assert clock.time == 0.0
+    assert not clock.done
+
+
 def test_a_clock_stands_still_while_time_is_lost_and_runs_slower_on_a_slow_order():
     clock = ManeuverClock(TWO, 0.1)
     assert clock.order(0.2, 0.0).rates == (1.0, 0.0, 0.0)

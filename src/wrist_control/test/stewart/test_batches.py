@@ -65,6 +65,12 @@ def test_a_batch_gives_what_single_solves_give(wrist):
         assert batch.unique_radius[row] == pytest.approx(single.unique_radius, rel=0.05)
 
 
+def test_a_batch_that_starts_at_its_answers_corrects_their_rounding_at_most():
+    found, lengths, _ = many(50)
+    there = Poses(np.array([p.quaternion for p in found]), np.array([p.position for p in found]))
+    assert FK.solve_batch(lengths, there).iterations.max() <= 1
+
+
 def test_a_pose_that_was_filled_with_arrays_counts_as_poses():
     _, lengths, near = many(5)
     for one, other in zip(

@@ -187,6 +187,18 @@ def test_rounding_of_the_pose_itself_is_within_its_bound():
     assert 0.1 < max(used) < 1.0
 
 
+@pytest.mark.parametrize('x', [-0.9, 0.4])
+@pytest.mark.parametrize('y', [-0.8, 0.5])
+@pytest.mark.parametrize('z', [-0.7, 0.6])
+def test_a_batch_bounds_rounding_as_single_solves_do(x, y, z):
+    """All that is left of the bound where the unknowns have no error."""
+    at = stages.unknowns(Pose(IDENTITY, (x, y, z)), SIZE)
+    single = FK._solution(stages.Track(at, 0, Proof(0.0, 1.0), True))
+    found, one = Solutions.unsolved(1), np.ones(1)
+    FK._fill(found, slice(1), batch.Tracks(np.array([at]).T, one, 0.0 * one, one, one == 1.0))
+    assert found.error_bound[0] == pytest.approx(single.error_bound, rel=1e-12, abs=0.0)
+
+
 def extended_rotation(quaternion):
     """Return platform axes as columns, to nineteen digits, of a quaternion of any length."""
     w, z, y, x = np.array(quaternion, np.longdouble) / np.sqrt(

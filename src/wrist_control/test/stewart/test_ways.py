@@ -1,11 +1,12 @@
 """Long ways and searches: how far stages follow a pose, and what seeds find."""
 
 import math
+from functools import partial
 
 import numpy as np
 
 from wrist_control.rotations import IDENTITY, Pose, turned, unit
-from wrist_control.stewart import assembly, general, stages
+from wrist_control.stewart import assembly, general, quadratics, stages, tracking
 from wrist_control.stewart.forward_kinematics import Status
 
 from .platforms import CROOKED, FK, SIZE, WRIST, apart, lengths_of, random_poses
@@ -71,3 +72,26 @@ def test_ways_across_the_workspace_are_followed_to_their_end():
         for start, goal in zip(ends[::2], ends[1::2], strict=True)
     ]
     assert solved.count(Status.CONVERGED) >= 32
+
+
+def test_a_way_in_stages_tells_the_corrections_of_all_of_them():
+    goal, start = random_poses(2, 0.15, 1.0, seed=1)
+    made = []
+
+    def solve(right, before):
+        track = tracking.solve_planar(FK.planar, right, before)
+        if track is not None and track.followed:
+            made.append(track.iterations)
+        return track
+
+    track, end = stages.follow(
+        solve,
+        partial(quadratics.right_side_at, FK.planar),
+        quadratics.right_side(FK.planar, lengths_of(goal)),
+        stages.unknowns(start, SIZE),
+    )
+    assert track.followed
+    assert track.at == end
+    assert len(made) > 2
+    assert min(made) > 0
+    assert track.iterations == sum(made)

@@ -151,6 +151,13 @@ def test_the_lost_axis_at_a_quarter_turn_is_the_normal():
     assert np.abs(WRIST.lost_axis(lengths)) == pytest.approx((0, 0, 1), abs=1e-3)
 
 
+def test_where_no_turn_is_lost_the_lost_axis_is_still_a_unit_vector():
+    """Six legs that hold all but a shift along x: rows of (n, p × n) without its first column."""
+    lines = tuple(tuple(row) for row in np.eye(6)[[1, 2, 3, 4, 5, 5]].tolist())
+    axis = WRIST.lost_axis(LegConfiguration(tuple(WRIST.home), HOME, lines, WRIST.size))
+    assert math.hypot(*axis) == 1.0
+
+
 @given(twists)
 @settings(max_examples=30)
 def test_all_six_rates_are_scaled_alike(twist):
@@ -230,6 +237,14 @@ def test_twelve_anchors_are_the_same_wrist_as_the_ring():
         ({'platform_anchors': [[0.0, 0.0, 0.0]]}, 'platform_anchors has 3 numbers'),
         ({'base_anchors': [math.nan] * 18}, 'base_anchors has 18 numbers'),
         ({'platform_angle': 0.3, 'base_angle': 0.3}, 'do not hold the platform'),
+        *(
+            ({name: 0.0}, f'{name} is 0.0; valid is 1e-06 to inf m')
+            for name in ('platform_radius', 'base_radius', 'home_height')
+        ),
+        *(
+            ({name: -1e-9}, f'{name} is -1e-09; valid is 0 to 2.0944 rad')
+            for name in ('platform_angle', 'base_angle')
+        ),
     ],
 )
 def test_what_cannot_be_a_platform_is_refused(wrong, says):
