@@ -43,7 +43,10 @@ def main():
     """Print the table."""
     message = publishing()
     table = Table(title=f'One resolver step; publishing one JointState takes {message:.1f} µs')
-    for heading in ('wrist', 'following', '÷ publishing', 'scaled', '÷ publishing'):
+    headings = ['wrist']
+    for what in ('following', 'scaled', 'gathering speed'):
+        headings += [what, '÷ publishing']
+    for heading in headings:
         table.add_column(heading, justify='right')
     for name in WRISTS:
         wrist = make_wrist(name)
@@ -54,13 +57,13 @@ def main():
         state = step(wrist, state, twist, 0.01).state
         free = microseconds(lambda: step(wrist, state, twist, 0.01))  # noqa: B023
         scaled = microseconds(lambda: step(slow, state, twist, 0.01))  # noqa: B023
-        table.add_row(
-            name,
-            f'{free:.1f} µs',
-            f'{free / message:.2f}',
-            f'{scaled:.1f} µs',
-            f'{scaled / message:.2f}',
-        )
+        rest = state._replace(joint_rates=())
+        sluggish = wrist.with_limits(accelerations=1.0, decelerations=1.0)
+        gathering = microseconds(lambda: step(sluggish, rest, twist, 0.01))  # noqa: B023
+        cells = [name]
+        for cost in (free, scaled, gathering):
+            cells += [f'{cost:.1f} µs', f'{cost / message:.2f}']
+        table.add_row(*cells)
     console = Console()
     console.print(table)
     console.print(f'Goal: at most {GOAL:g} µs for a step.')

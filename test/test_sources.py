@@ -74,14 +74,14 @@ def swings(followed):
 
 
 def test_a_late_command_does_not_undo_a_stop(graph):
-    heard = Heard(graph)
+    heard = Heard(graph, command_timeout=5.0)
     stick = Stick(graph, 'alpha', PITCH)
     heard.run(0.2, stick.send)
     stick.send(rate=0.0)
     graph.until(lambda: heard.statuses[-1].state == WristStatus.IDLE)
     before = len(heard.statuses)
     for _ in range(5):
-        stick.send(age=0.2)
+        stick.send(age=2.0)
         graph.spin(0.02)
     assert not heard.followed[before:].any()
     graph.until(lambda: heard.counted().get('refused cmd_vel: out of order') == '5')

@@ -59,7 +59,7 @@ def eased(
     rates = increments(state.positions, wanted.positions, dt)
     held = _held_back(wrist.joints, state.joint_rates, rates, windows, dt)
     if not held:
-        return found[0], wanted, limits
+        return factor, wanted, limits
     limits = [*limits, *held]
     along = _along_command(state, attempt, factor, wanted, windows, dt)
     if along:
