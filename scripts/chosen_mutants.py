@@ -39,6 +39,7 @@ STEADY = 'return convert.seconds_of(self._node.steady.now().nanoseconds)'
 CAUGHT = '            except Exception as error:\n                return'
 MISSED = CAUGHT.replace('Exception', 'KeyError')
 FIRST = "self.__dict__.setdefault('_first', self._values['command_timeout'])"
+FOLLOWED = 'scaled(result.step.scale_factor, result.commanded)'
 LOOK = 'if publisher.topic_type != kind:'
 QOS, RECORDING = 'ros/qos.py', 'graph/recording.py'
 UNSURE = 'OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)'
@@ -239,6 +240,7 @@ CHOSEN = tuple(
         (EASING, '    if not held:', '    if True:', 'any rate at once'),
         (EASING, 'if along:', 'if False:', 'the hand leaves its direction without need'),
         ('resolving/ramp.py', 'PAUSE = 0.1', 'PAUSE = 9.0', 'a jerk after a freeze'),
+        (SUPERVISOR, FOLLOWED, 'result.commanded', 'a stop speeds the hand up first'),
         (SUPERVISOR, ' and not any(result.step.joint_rates)', '', 'let go while it moves'),
         ('resolving/homing.py', 'part = min(reach, ', 'part = max(0.0, reach, ', 'home too fast'),
         (CLOCK, 'self.pause = convert', 'self.pause = 0.0 * convert', 'a jerk after a freeze'),

@@ -156,9 +156,13 @@ def test_a_joint_that_does_not_follow_is_seen_when_the_system_clock_is_set_back(
 
     graph.until(lambda: measured_at_last(WristStatus.IDLE))
     told = graph.listen(JointState, 'joint_command')
-    commands.publish(twist)
+
+    def is_led_away():
+        commands.publish(twist)
+        return measured_at_last(WristStatus.FAULT) or (told and told[-1].position[2] > 0.5)
+
     # Further than a joint may lag, but not yet for long enough.
-    graph.until(lambda: measured_at_last(WristStatus.FAULT) or told[-1].position[2] > 0.5)
+    graph.until(is_led_away)
     settable.ahead = Duration(seconds=-3600.0)
     graph.until(lambda: measured_at_last(WristStatus.FAULT))
     assert statuses[-1].message.startswith('phi is at 0.000 but was told ')

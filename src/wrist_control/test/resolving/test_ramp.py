@@ -1,6 +1,6 @@
 import pytest
 
-from wrist_control.resolving.ramp import Ramp
+from wrist_control.resolving.ramp import Ramp, scaled
 
 
 def test_the_share_goes_down_evenly_and_is_nothing_after_the_stop_time():
@@ -18,5 +18,4 @@ def test_a_stop_that_is_shorter_than_a_step_takes_one_step():
 
 
 def test_every_component_of_the_motion_is_made_in_the_same_share():
-    ramp = Ramp(0.5, None, '')
-    assert ramp.of((1.0, 2.0, 3.0, 4.0, 5.0, -6.0)) == (0.5, 1.0, 1.5, 2.0, 2.5, -3.0)
+    assert scaled(0.5, (1.0, 2.0, 3.0, 4.0, 5.0, -6.0)) == (0.5, 1.0, 1.5, 2.0, 2.5, -3.0)

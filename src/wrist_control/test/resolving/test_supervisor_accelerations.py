@@ -1,5 +1,7 @@
 """Starts, turns, stops and pauses of a supervised hand: no rate ever changes too quickly."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -38,6 +40,12 @@ def fail(sluggish):
 
 def fall_silent(sluggish):
     pass
+
+
+def release(sluggish):
+    """Release a dead-man's switch, for good."""
+    tick = sluggish.supervisor.tick
+    sluggish.supervisor.tick = lambda **now: tick(**now, withheld='Released.')
 
 
 def reset(sluggish):
@@ -114,3 +122,34 @@ def test_a_stop_is_not_sped_up_again_after_a_pause(sluggish):
     results = [tick_after(sluggish, 0.5), *sluggish.ticks(0.1)]
     assert max(abs(rate) for one in rates(results) for rate in one) <= 0.4 * 0.01 / 0.5
     assert results[-1].wrist_state.name == 'DISABLED'
+
+
+@pytest.mark.parametrize('stop_time', [0.1, 0.5])
+@pytest.mark.parametrize('end', [disable, fail, fall_silent, release])
+@pytest.mark.parametrize('begun', [0.05, 0.1, 0.3])
+def test_a_stop_never_speeds_the_hand_up(clocked, begun, end, stop_time):
+    """Stopped while it still gathers speed, or is held back by a rate limit."""
+    sluggish = clocked(WRIST, stop_time=stop_time)
+    sluggish.ticks(begun, [2.0 * x for x in ROLL])
+    results = sluggish.ticks(0.26) if end is fall_silent else []
+    end(sluggish)
+    results = results[-1:] + sluggish.ticks(1.0)
+    speeds = [abs(one[2]) for one in rates(results)]
+    assert speeds[0] > 0.0
+    assert all(later <= sooner + 1e-12 for sooner, later in pairwise(speeds))
+    assert speeds[-1] == 0.0
+
+
+@pytest.mark.parametrize('begun', [0.05, 0.1, 0.3])
+def test_a_stop_on_the_way_home_never_speeds_the_hand_up(clocked, begun):
+    sluggish = clocked(WRIST, stop_time=0.5, initial=(1.0, 0.0, 0.0))
+    sluggish.supervisor.settings = sluggish.supervisor.settings._replace(
+        initial_positions=(0.0, 0.0, 0.0)
+    )
+    sluggish.supervisor.reset()
+    sluggish.ticks(begun)
+    sluggish.enable(False)
+    speeds = [abs(one[0]) for one in rates(sluggish.ticks(1.0))]
+    assert speeds[0] > 0.0
+    assert all(later <= sooner + 1e-12 for sooner, later in pairwise(speeds))
+    assert speeds[-1] == 0.0

@@ -133,6 +133,25 @@ class Feedback:
             return f'{name} is at {at:.3f} but was told {wanted:.3f}: it does not follow.'
         return None
 
+    def check_ready(self, receipt_time: float, longest: float) -> None:
+        """See that the joints can be taken over: they were heard lately, and rest.
+
+        Args:
+            receipt_time: Now, s.
+            longest: Age up to which joint states are good enough, s.
+
+        Raises:
+            InvalidValueError: They cannot.
+        """
+        if self.age(receipt_time) > longest:
+            raise InvalidValueError(
+                f'Cannot enable: {self.what_is_missing(receipt_time)}; start the joints first.'
+            )
+        if not self.resting:
+            raise InvalidValueError(
+                'Cannot enable: the joints do not rest; hold them still, and call it again.'
+            )
+
 
 def _excess(
     positions: Sequence[float], others: Sequence[float], tolerance: Sequence[float]

@@ -62,6 +62,13 @@ def _largest_part_to_stop_after(time: float) -> float:
     return 2.0 / (1.0 + math.sqrt(1.0 + 2.0 * time))
 
 
+def speed_of(wrist: Wrist, taken: Step) -> float:
+    """Return how fast a step home was, as a share of how fast it may be, 0 to 1."""
+    joints = [_calm(joint) for joint in wrist.joints]
+    shares = zip(taken.joint_rates, joints, strict=True)
+    return min(1.0, max(abs(rate) / joint.rate_limit for rate, joint in shares))
+
+
 def has_reached(state: State, goal: Sequence[float]) -> bool:
     """Return whether the joints are where they should be."""
     return max(abs(old - new) for old, new in zip(state.positions, goal, strict=True)) < 1e-9

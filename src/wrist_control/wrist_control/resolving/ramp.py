@@ -36,10 +36,11 @@ class Ramp(NamedTuple):
         share = self.share - dt / stop_time
         return self._replace(share=share if share > NOTHING else 0.0)
 
-    def of(self, twist: Twist) -> Twist:
-        """Return what is still made of the twist that was followed when the stop began."""
-        vx, vy, vz, p, q, r = (self.share * x for x in twist)
-        return vx, vy, vz, p, q, r
+
+def scaled(share: float, twist: Twist) -> Twist:
+    """Return a share of a twist."""
+    vx, vy, vz, p, q, r = (share * x for x in twist)
+    return vx, vy, vz, p, q, r
 
 
 def after_a_pause(
@@ -48,6 +49,7 @@ def after_a_pause(
     """Return the state of joints that were told nothing for a while, and how far a stop came.
 
     They went on to where they were told, and no further: over all of the pause that is slower.
+    A stop has nothing left to ramp then, and must not speed them up again.
 
     Args:
         state: Where they are.
@@ -58,4 +60,4 @@ def after_a_pause(
     if pause <= settings.dt + PAUSE:
         return state, ramp
     slower = tuple([rate * settings.dt / pause for rate in state.joint_rates])
-    return state._replace(joint_rates=slower), ramp and ramp.after(pause, settings.stop_time)
+    return state._replace(joint_rates=slower), ramp and ramp._replace(share=0.0)

@@ -12,11 +12,11 @@ from contextlib import suppress
 from wrist_control.errors import InvalidValueError, WristError
 from wrist_control.resolving.commands import Command, freshness, hand_twist
 from wrist_control.resolving.feedback import Feedback, checked_start, state_at
-from wrist_control.resolving.homing import has_reached, step_home
+from wrist_control.resolving.homing import has_reached, speed_of, step_home
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.period import Mode, PeriodResult, SupervisorSettings
 from wrist_control.resolving.permission import Permission
-from wrist_control.resolving.ramp import Ramp, after_a_pause
+from wrist_control.resolving.ramp import Ramp, after_a_pause, scaled
 from wrist_control.resolving.report import WristState, sentence, state_of
 from wrist_control.resolving.state import ZERO_TWIST, State, Twist, resting
 from wrist_control.resolving.step import start, step
@@ -51,7 +51,9 @@ class Supervisor:
         self._feedback = Feedback(wrist.joints)
         self._adopted = self._moving = False
         self._ramp: Ramp | None = None
-        self._commanded: Twist = ZERO_TWIST
+        # What was followed when the hand was last free to move, and the share of it since then.
+        self._followed: Twist = ZERO_TWIST
+        self._home_speed, self._share = 0.0, 1.0
         self._reason = ''
         self._permission = Permission()
 
@@ -78,7 +80,7 @@ class Supervisor:
         elif self._ramp is None:
             self._commands.clear()
             if self._moving or self.mode is Mode.HOMING:
-                self._ramp = Ramp(1.0, then, message)
+                self._ramp = Ramp(self._share, then, message)
             else:
                 self._settle(then, message)
         elif self._ramp.then is not Mode.FAULT and then is not Mode.FOLLOWING:
@@ -139,15 +141,7 @@ class Supervisor:
         if feedback.positions is None:
             self.mode = Mode.WAITING if self.settings.require_joint_states else Mode.FOLLOWING
         else:
-            if feedback.age(receipt_time) > self.settings.feedback_timeout:
-                raise InvalidValueError(
-                    f'Cannot enable: {feedback.what_is_missing(receipt_time)}; start the joints '
-                    'first.'
-                )
-            if not feedback.resting:
-                raise InvalidValueError(
-                    'Cannot enable: the joints do not rest; hold them still, and call it again.'
-                )
+            feedback.check_ready(receipt_time, self.settings.feedback_timeout)
             self.state = checked_start(self.wrist, feedback.positions, self.state)
             self._adopted, self.mode = True, Mode.FOLLOWING
         self._commands.clear()
@@ -202,7 +196,7 @@ class Supervisor:
             self._ramp = self._ramp.after(self.settings.dt, self.settings.stop_time)
             if self.mode is Mode.HOMING:
                 return self._home(self._ramp.share)
-            return self._step(self._ramp.of(self._commanded))
+            return self._step(scaled(self._ramp.share, self._followed))
         if self.mode is Mode.FOLLOWING:
             return self._follow(self._commands.at(stamp_time), receipt_time, allowed)
         if self._deaf(receipt_time) and not self._moving:
@@ -223,8 +217,12 @@ class Supervisor:
         fresh = freshness(age, settings.command_timeout, settings.stop_time)
         if fresh and any(command.twist) and self._deaf(receipt_time) and not self._moving:
             return self._hold(receipt_time)
-        share = min(fresh, allowed)
-        result = self._step([share * x for x in hand_twist(command, self.state.pose.quaternion)])
+        self._share = min(fresh, allowed)
+        if self._share < 1.0:
+            result = self._step(scaled(self._share, self._followed))
+        else:
+            result = self._step(hand_twist(command, self.state.pose.quaternion))
+            self._followed = scaled(result.step.scale_factor, result.commanded)
         if fresh < 1.0 and any(command.twist):
             return result._replace(
                 wrist_state=WristState.STALE,
@@ -235,8 +233,6 @@ class Supervisor:
     def _step(self, commanded: Sequence[float]) -> PeriodResult:
         vx, vy, vz, p, q, r = commanded
         twist = (vx, vy, vz, p, q, r)
-        if not self._ramp:  # what is ramped down is what was followed when the ramp began
-            self._commanded = twist
         taken = step(self.wrist, self.state, twist, self.settings.dt)
         self._adopted = self._adopted or any(taken.joint_rates)
         self.state = taken.state
@@ -245,9 +241,12 @@ class Supervisor:
 
     def _home(self, share: float) -> PeriodResult:
         goal = self.settings.initial_positions
-        taken = step_home(self.wrist, self.state, goal, self.settings.dt, share)
+        speed = share * self._home_speed if share < 1.0 else 1.0
+        taken = step_home(self.wrist, self.state, goal, self.settings.dt, speed)
         self.state = taken.state
-        self._adopted, self._commanded = True, ZERO_TWIST
+        self._adopted, self._share = True, share
+        if share == 1.0:
+            self._home_speed, self._followed = speed_of(self.wrist, taken), ZERO_TWIST
         if has_reached(self.state, goal):
             self.state = state_at(self.wrist, tuple(goal), self.state)._replace(time_lost=0.0)
             self.mode = Mode.FOLLOWING
