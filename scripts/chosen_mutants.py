@@ -124,14 +124,14 @@ CHOSEN = tuple(
             'an old command moves the hand as soon as it is enabled',
         ),
         (
-            SUPERVISOR,
-            'if feedback.age(receipt_time) > self.settings.feedback_timeout:',
+            FEEDBACK,
+            'if self.age(receipt_time) > longest:',
             'if False:',
             'it is enabled from where the joints were long ago',
         ),
         (
-            SUPERVISOR,
-            'if not feedback.resting:',
+            FEEDBACK,
+            'if not self.resting:',
             'if False:',
             'it is enabled from joints that move',
         ),
