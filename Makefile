@@ -41,6 +41,10 @@ bench: setup  ## measure how fast it is, as ratios within one run
 mutants: setup  ## put small faults into the code and see that the tests find them
 	@./env python3 scripts/mutants.py
 
+.PHONY: campaign
+campaign: setup  ## attack the library and the nodes, with a million steps and messages
+	@./env python3 scripts/campaign.py
+
 .PHONY: compare
 compare: setup  ## fly every wrist through the same maneuvers and compare them
 	@./env python3 -m wrist_control.studies.compare
