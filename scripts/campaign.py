@@ -8,12 +8,13 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from functools import partial
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
-from hostile import library
+from hostile import library, live
 from hostile.verdict import Verdict
 
 STEPS, MESSAGES = 1_000_000, 100_000
@@ -67,6 +68,14 @@ def main() -> int:
                 options.workers,
                 lambda count: progress.update(task, advance=count),
             )
+        if options.messages:
+            task = progress.add_task('live', total=options.messages)
+            sent = partial(progress.update, task)
+            for verdict in live.verdicts(
+                options.messages, options.seed, lambda count: sent(advance=count)
+            ):
+                progress.update(task, description=verdict.attack)
+                found.append(verdict)
     console.print(f'seed {options.seed}')
     return 0 if show(found, console) else 1
 
