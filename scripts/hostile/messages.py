@@ -86,6 +86,10 @@ def hostile_stamped(random: Random) -> TwistStamped:
     message = honest(random) if random.random() < 0.5 else refused_stamped(random)
     if random.random() < 0.3:
         put(message.twist, str(random.choice([*ANGULAR, *LINEAR])), hostile_number(random))
+    if random.random() < 0.1:  # so small that it is hardly a command
+        scale = 10.0 ** random.uniform(-300.0, 0.0)
+        for path in ANGULAR:
+            put(message.twist, path, scale * float(random.normal()))
     if random.random() < 0.2:
         message.header.stamp = Time(
             sec=int(random.integers(-(2**31), 2**31)), nanosec=int(random.integers(0, 2**32))

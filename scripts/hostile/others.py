@@ -36,7 +36,7 @@ def joint_simulator(stage: Stage, random: Random, count: int) -> None:
     names = [joint.name for joint in stage.joints]
     joints = [Joint(name, lower=-REACH, upper=REACH, rate_limit=RATE) for name in names]
     judge = Judge(joints, DT, stage.verdict)
-    stage.deaf = True  # what is on joint_command now is what attacks
+    stage.attacked.add('joint_command')
     stage.listen(JointState, 'joint_states', judge.hear)
     stage.start(
         'joint_simulator',
@@ -123,15 +123,17 @@ def operator(stage: Stage, random: Random, count: int) -> None:
     stage.check()
     stage.end('operator')
     stage.start('operator', maneuver='extended_test')
+    stage.attacked.add('wrist_status')
+    stage.judge.allow(math.inf)
     status = stage.publisher(WristStatus, 'wrist_status')
     for _ in paced(count - count // 2):
-        stage.judge.allow(2.0)
         status.publish(hostile_status(random))
         stage.sent()
     before = len(said)
     stage.until(lambda: len(said) > before + 10, 'no cmd_vel any more')
     stage.check()
     stage.end('operator')
+    stage.judge.forbid()
 
 
 def _tick(times: list[float]) -> None:

@@ -60,7 +60,7 @@ class Stage:
         judge: Judges `joint_command`.
         pulse: When each node was heard last.
         states: The newest joint states; None before the first.
-        deaf: Whether `joint_command` is not judged, but part of the attack.
+        attacked: Topics that the attack itself is on: what is heard there is not judged.
     """
 
     def __init__(
@@ -91,7 +91,7 @@ class Stage:
         self.judge = Judge(self.joints, DT, verdict)
         self.pulse = Pulse()
         self.states: Any = None
-        self.deaf = False
+        self.attacked: set[str] = set()
         self._processes: dict[str, subprocess.Popen] = {}
         self._commands: dict[str, list[str]] = {}
         self._folder = TemporaryDirectory()
@@ -112,13 +112,13 @@ class Stage:
         """See that all is finite that is said on a topic."""
 
         def hear(message: Any) -> None:
-            if not all(map(math.isfinite, floats_of(message))):
+            if topic not in self.attacked and not all(map(math.isfinite, floats_of(message))):
                 self.verdict.find('nonfinite', f'{topic}: {message}'[:1000])
 
         self.listen(kind, topic, hear)
 
     def _hear_command(self, message: JointState) -> None:
-        if not self.deaf:
+        if 'joint_command' not in self.attacked:
             self.judge.hear(message)
 
     def _hear_joints(self, message: JointState) -> None:
