@@ -158,6 +158,7 @@ def attack(name: str, kind: Kind, steps: int, seed: Sequence[int]) -> list[Verdi
             _fly(flight, kind, random, refused)
             pool.append(flight.state.positions)
         except Exception as error:
+            verdict.count += 1
             verdict.find(
                 'dead',
                 f'{name}, dt {dt!r}, at {tuple(flight.state.positions)}, rates '

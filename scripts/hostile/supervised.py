@@ -229,6 +229,7 @@ def attack(name: str, periods: int, seed: Sequence[int]) -> list[Verdict]:
             for _ in range(PERIODS):
                 supervised.period()
         except Exception as error:
+            verdict.count += 1
             state = supervised.supervisor.state
             verdict.find('dead', f'{name} at {state}: {type(error).__name__}: {error}')
     return [verdict]
