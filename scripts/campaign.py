@@ -6,6 +6,7 @@ Every row of the table is one attack. All that is counted in it must be zero.
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -18,6 +19,7 @@ from hostile import library, live
 from hostile.verdict import Verdict
 
 STEPS, MESSAGES = 1_000_000, 100_000
+WIDTH = 120  # of what is written to a file
 WORKERS = 2  # as many as the cores of a small machine
 
 
@@ -56,7 +58,9 @@ def main() -> int:
     parser.add_argument('--messages', type=int, default=MESSAGES, help='to nodes; 0 for none')
     parser.add_argument('--workers', type=int, default=WORKERS, help='processes of the library')
     options = parser.parse_args()
-    console = Console()
+    # As Ctrl-C: the processes are ended.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    console = Console(width=None if sys.stdout.isatty() else WIDTH)
     found: list[Verdict] = []
     columns = (TextColumn('{task.description}'), BarColumn(), MofNCompleteColumn())
     with Progress(*columns, TimeRemainingColumn(), console=console) as progress:

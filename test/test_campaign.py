@@ -10,7 +10,7 @@ from hostile.verdict import Verdict
 from wrist_control.wrists import WRISTS
 
 STEPS, PERIODS, MESSAGES = 200, 600, 400
-SEED = 5
+SEED = 6
 
 
 def assert_nothing_found(verdicts):

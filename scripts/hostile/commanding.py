@@ -222,5 +222,4 @@ def deadman(stage: Stage, random: Random, count: int) -> None:
             switch.publish(Bool(data=False))
         commands.publish(honest(random))
         stage.sent(2)
-    stage.node.destroy_publisher(commands)
     stage.follows_again(lambda: switch.publish(Bool(data=True)))

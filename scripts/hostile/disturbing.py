@@ -29,7 +29,9 @@ LIVE = (
     'tracking_time',
 )
 FIXED = ('rate', 'initial_positions', 'require_joint_states', 'use_sim_time', 'no_such', '')
-# Numbers that some parameter takes; a deceleration that comes to nothing stops nothing.
+# Where these are narrowed under way the space to stop in is gone, and joints stop as they can.
+BRAKES = ('joint_lower_limits', 'joint_upper_limits', 'joint_deceleration_limits')
+# Numbers that every other parameter takes.
 SOME_NUMBERS = (0.05, 0.1, 0.3, 0.5, 1.0)
 # What the live parameters are at the start.
 AT_FIRST = {
@@ -200,7 +202,7 @@ def parameters_and_services(stage: Stage, random: Random, count: int) -> None:
 def _value(name: str, random: Random) -> object:
     """Return a value for a parameter: of any kind, or, seldom, one that it takes."""
     kind = random.random()
-    if kind < 0.3 and 'lower' not in name and 'upper' not in name:
+    if kind < 0.3 and name not in BRAKES:
         number = float(random.choice(SOME_NUMBERS))
         return [number] if name.endswith(('_limits', 'tolerance')) else number
     if kind < 0.5:

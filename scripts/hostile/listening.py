@@ -57,7 +57,7 @@ class Judge:
         # Where it was begun: joints that stood a little outside may be no further outside.
         self._start: Sequence[float] = ()
         self._rates: Sequence[float] = (0.0,) * len(joints)
-        self._stamp = -math.inf
+        self._stamp = self._published = -math.inf
         self._said: deque[tuple[float, ...]] = deque(maxlen=500)
         self._until, self._stopped = -math.inf, False
         self._lock = threading.Lock()
@@ -86,19 +86,28 @@ class Judge:
         if all(name in at for name in self._names):
             self._said.append(tuple(at[name] for name in self._names))
 
-    def hear(self, message: Any) -> None:
-        """Judge the next message."""
+    def hear(self, message: Any, published: float | None = None) -> None:
+        """Judge the next message.
+
+        Args:
+            message: It.
+            published: When it was, s, on a clock that does not jump; its stamp when not known.
+                A process may be held up between the two: then the pause is longer than it says.
+        """
         self.heard += 1
         positions, rates = tuple(message.position), tuple(message.velocity)
         stamp = message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec
         gap, self._stamp = stamp - self._stamp, stamp
+        published = stamp if published is None else published
+        pause, self._published = published - self._published, published
+        steady = 0.0 < gap <= PAUSE * self._dt and pause <= PAUSE * self._dt
         if not all(math.isfinite(x) for x in (*positions, *rates)):
             self._verdict.find('nonfinite', f'{positions} at {rates}')
             return
         if list(message.name) != self._names or len(positions) != len(rates):
             self._verdict.find('limits', f'it names {list(message.name)[:9]}')
             return
-        for sentence in self._broken(positions, rates, gap):
+        for sentence in self._broken(positions, rates, gap, steady):
             self._verdict.find('limits', f'{sentence}; {gap / self._dt:.3f} periods later')
         self.moving = any(rates)
         if self.moving:
@@ -114,17 +123,17 @@ class Judge:
             self._verdict.find('uncommanded', f'{rates}, {late:.3f} s after it should rest')
 
     def _broken(
-        self, positions: Sequence[float], rates: Sequence[float], gap: float
+        self, positions: Sequence[float], rates: Sequence[float], gap: float, steady: bool
     ) -> Iterator[str]:
         before = [*self._rates]
-        if not 0.0 < gap <= PAUSE * self._dt:
+        if not steady:
             # The joints went on to where they were told, and no further: over all of the pause
-            # that is slower, by how much the stamps tell only roughly.
+            # that is slower, by how much nobody here can tell to the last bit.
             before = [
                 min(max(new, min(0.0, old)), max(0.0, old))
                 for old, new in zip(before, rates, strict=True)
             ]
-        if self._positions is None or self._is_taken_over(positions, rates, gap):
+        if self._positions is None or self._is_taken_over(positions, rates, steady):
             self._start = self._positions = positions
         yield from broken_limits(self._joints, self._start, positions, before, rates, self._dt)
         periods = max(1.0, round(gap / self._dt)) if math.isfinite(gap) else 1.0
@@ -134,10 +143,10 @@ class Judge:
                 yield f'{joint.name} jumps from {old!r} to {new!r}'
 
     def _is_taken_over(
-        self, positions: Sequence[float], rates: Sequence[float], gap: float
+        self, positions: Sequence[float], rates: Sequence[float], steady: bool
     ) -> bool:
         """Return whether the resolver begins again where the joints say that they rest."""
-        if any(rates) or 0.0 < gap <= PAUSE * self._dt:
+        if any(rates) or steady:
             return False
         return any(
             max(abs(one - other) for one, other in zip(said, positions, strict=True)) < TAKEN_OVER

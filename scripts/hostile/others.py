@@ -37,7 +37,7 @@ def joint_simulator(stage: Stage, random: Random, count: int) -> None:
     joints = [Joint(name, lower=-REACH, upper=REACH, rate_limit=RATE) for name in names]
     judge = Judge(joints, DT, stage.verdict)
     stage.attacked.add('joint_command')
-    stage.listen(JointState, 'joint_states', judge.hear)
+    stage.listen(JointState, 'joint_states', lambda message: judge.hear(message))
     stage.start(
         'joint_simulator',
         joints=names,

@@ -104,7 +104,7 @@ class Stage:
         self._thread = threading.Thread(target=self._executor.spin, daemon=True)
         self._thread.start()
 
-    def listen(self, kind: Any, topic: str, heard: Callable[[Any], object]) -> None:
+    def listen(self, kind: Any, topic: str, heard: Callable[..., object]) -> None:
         """Have something called with every message of a topic."""
         self.node.create_subscription(kind, topic, heard, EVERYTHING)
 
@@ -117,9 +117,9 @@ class Stage:
 
         self.listen(kind, topic, hear)
 
-    def _hear_command(self, message: JointState) -> None:
+    def _hear_command(self, message: JointState, info: dict[str, Any]) -> None:
         if 'joint_command' not in self.attacked:
-            self.judge.hear(message)
+            self.judge.hear(message, 1e-9 * info['source_timestamp'])
 
     def _hear_joints(self, message: JointState) -> None:
         self.states = message
@@ -255,8 +255,6 @@ class Stage:
             answer = asked[-1].result() if asked[-1].done() else 'no answer'
             self.verdict.find('dead', f'{error}: {answer}')
         commands.publish(Twist())
-        self.node.destroy_publisher(commands)
-        self.node.destroy_client(enable)
 
     def _said(self, executable: str) -> str:
         path = Path(self._folder.name, executable)
