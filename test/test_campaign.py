@@ -10,7 +10,7 @@ from hostile.verdict import Verdict
 from wrist_control.wrists import WRISTS
 
 STEPS, PERIODS, MESSAGES = 200, 600, 400
-SEED = 6
+SEED = 7
 
 
 def assert_nothing_found(verdicts):
@@ -57,9 +57,9 @@ def test_a_node_that_dies_is_found(stage):
 
 
 def test_a_node_that_says_nothing_any_more_is_found(stage, monkeypatch):
-    monkeypatch.setattr('hostile.stage.PATIENCE', 3.0)
     stage.start('joint_simulator')
-    stage.until(lambda: stage.pulse.spoke('joint_simulator', 0.0), 'no joints', 20.0)
+    stage.until(lambda: stage.pulse.spoke('joint_simulator', 0.0), 'no joints')
+    monkeypatch.setattr('hostile.stage.PATIENCE', 3.0)
     stage.signal('joint_simulator', signal.SIGSTOP)
     stage.check()
     assert stage.verdict.dead == 1

@@ -44,8 +44,7 @@ class Stream:
         self.judge.hear(message)
 
     def found(self):
-        verdict = self.verdict
-        return verdict.limits, verdict.nonfinite, verdict.uncommanded
+        return self.verdict.limits, self.verdict.nonfinite, self.verdict.uncommanded
 
 
 @pytest.fixture

@@ -202,7 +202,9 @@ def parameters_and_services(stage: Stage, random: Random, count: int) -> None:
 def _value(name: str, random: Random) -> object:
     """Return a value for a parameter: of any kind, or, seldom, one that it takes."""
     kind = random.random()
-    if kind < 0.3 and name not in BRAKES:
+    if name in BRAKES and kind < 0.7:
+        return [math.nan] * int(random.integers(0, 9))
+    if kind < 0.3:
         number = float(random.choice(SOME_NUMBERS))
         return [number] if name.endswith(('_limits', 'tolerance')) else number
     if kind < 0.5:

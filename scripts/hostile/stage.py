@@ -196,16 +196,16 @@ class Stage:
         self.verdict.count += count
         self._progress(count)
 
-    def until(self, condition: Callable[[], object], what: str, limit: float = PATIENCE) -> None:
+    def until(self, condition: Callable[[], object], what: str) -> None:
         """Wait until something is true.
 
         Raises:
-            DeadError: It never is.
+            DeadError: It never is; `what` is missing.
         """
-        end = time.monotonic() + limit
+        end = time.monotonic() + PATIENCE
         while not condition():
             if time.monotonic() > end:
-                raise DeadError(f'{what} within {limit:g} s')
+                raise DeadError(f'{what} within {PATIENCE:g} s')
             time.sleep(0.01)
 
     def check(self) -> None:
