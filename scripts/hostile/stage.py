@@ -101,8 +101,13 @@ class Stage:
         self.finite(Float64MultiArray, 'joint_velocity_command')
         self.finite(PoseStamped, 'hand_pose')
         self.finite(WristStatus, 'wrist_status')
-        self._thread = threading.Thread(target=self._executor.spin, daemon=True)
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
+
+    def _spin(self) -> None:
+        while not self._ended.is_set():
+            self._executor.spin_once(timeout_sec=0.1)
 
     def listen(self, kind: Any, topic: str, heard: Callable[..., object]) -> None:
         """Have something called with every message of a topic."""
@@ -275,8 +280,10 @@ class Stage:
             process.send_signal(signal.SIGCONT)
             process.kill()
             process.wait()
+        # Nothing may be taken away that the other thread still waits for.
+        self._ended.set()
+        self._thread.join()
         self._executor.shutdown()
-        self._thread.join(10.0)
         self.node.destroy_node()
         rclpy.shutdown(context=self._context)
         self._folder.cleanup()
