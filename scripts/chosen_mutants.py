@@ -125,8 +125,8 @@ CHOSEN = tuple(
         ),
         (
             FEEDBACK,
-            'if self.age(receipt_time) > longest:',
-            'if False:',
+            'if self.age(receipt_time) > longest:\n            raise',
+            'if False:\n            raise',
             'it is enabled from where the joints were long ago',
         ),
         (
@@ -159,8 +159,8 @@ CHOSEN = tuple(
         ),
         (
             SUPERVISOR,
-            'self._adopted, self._commanded = True, ZERO_TWIST',
-            'self._commanded = ZERO_TWIST',
+            'self._adopted, self._share = True, share',
+            'self._share = share',
             'a reset jumps to what is measured',
         ),
         (

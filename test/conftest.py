@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import math
 import os
-import tempfile
 import time
 import uuid
 from collections.abc import Callable, Iterator
@@ -19,45 +17,12 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
+from wrist_control.graph.domains import Domain
 from wrist_control.graph.lockstep import Lockstep
 from wrist_control.nodes.resolver import Resolver
 
-# Those whose ports lie below the range that Linux gives away by itself.
-DOMAINS = range(1, 102)
 # Set to another value in each test, so that its processes are told from all others.
 MARK = 'WRIST_CONTROL_TEST'
-
-
-def _last_use(path: Path) -> int:
-    return path.stat().st_mtime_ns if path.exists() else 0
-
-
-class Domain:
-    """A ROS domain that no other test of this machine uses, in another run either.
-
-    A lock on a file says so: the system takes it back even from a test that is killed. The one
-    whose last use is longest ago is taken, for nodes that end may be heard a little longer.
-    """
-
-    def __init__(self) -> None:
-        folder = Path(tempfile.gettempdir()) / 'wrist_control_domains'
-        folder.mkdir(exist_ok=True)
-        files = [folder / str(number) for number in DOMAINS]
-        for path in sorted(files, key=_last_use):
-            self._file = path.open('a')
-            try:
-                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                self._file.close()
-                continue
-            os.utime(path)
-            self.number = int(path.name)
-            return
-        raise RuntimeError('every ROS domain is in use by another test')
-
-    def release(self) -> None:
-        os.utime(self._file.name)
-        self._file.close()
 
 
 class Graph:

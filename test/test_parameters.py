@@ -43,6 +43,7 @@ def test_every_other_parameter_says_what_it_is_and_what_is_valid(graph, kind):
         ({'command_timeout': math.nan}, r'command_timeout is nan; valid is 0.01 to 10 s'),
         ({'joint_rate_limits': [1.0, 2.0]}, r'joint_rate_limits has 2 values; give 1 for all'),
         ({'joint_rate_limits': [0.0]}, r'must be above 0'),
+        ({'joint_deceleration_limits': [1e-300]}, r'1e-300 for psi, .* stops it within 10 s'),
         ({'joint_lower_limits': [1.0], 'joint_upper_limits': [-1.0]}, r'limits of psi cross'),
         ({'initial_positions': [0.0, 0.0]}, r'initial_positions has 2 values; give one for each'),
         ({'initial_positions': [0.0, math.pi / 2, 0.0]}, r'are at lock'),

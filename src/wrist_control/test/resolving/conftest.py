@@ -9,7 +9,8 @@ from wrist_control import UnreachableError, make_wrist
 from wrist_control.resolving import State
 from wrist_control.resolving import step as resolver_step
 from wrist_control.resolving.commands import Command
-from wrist_control.resolving.supervisor import Supervisor, SupervisorSettings
+from wrist_control.resolving.period import SupervisorSettings
+from wrist_control.resolving.supervisor import Supervisor
 from wrist_control.wrists import Clearance, Joint, Wrist
 
 GIMBALS = make_wrist('three_gimbal')

@@ -126,6 +126,13 @@ def test_at_rest_and_where_joints_stop_at_once_nothing_is_brought_to_rest():
     assert brought_to_rest(free, moving, DT) is moving
 
 
+@pytest.mark.parametrize('size', [1e-300, 8.3e-296, 1e-30, 1e-14])
+def test_a_command_that_is_nothing_beside_the_motion_is_rest(size):
+    state = start(GIMBALS)._replace(joint_rates=(0.0, 0.0, -0.4))
+    taken = step(GIMBALS, state, (size, 0.0, 0.0), DT)
+    assert taken.joint_rates == pytest.approx((0.0, 0.0, -0.4 + DOWN * DT))
+
+
 def test_infinite_limits_are_no_limits_to_the_last_bit():
     free = make_wrist('three_gimbal').with_limits(rates=0.5, lower=-2.0, upper=1.0)
     told = free.with_limits(accelerations=math.inf, decelerations=math.inf)

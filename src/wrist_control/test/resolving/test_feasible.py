@@ -7,6 +7,7 @@ import pytest
 from wrist_control import UnreachableError
 from wrist_control.resolving import LimitKind, State
 from wrist_control.resolving.feasible import edge, overruns_on_the_way_to_rest, within_limits
+from wrist_control.wrists import Clearance
 
 DT, DECELERATION = 0.01, 5.0
 
@@ -63,6 +64,22 @@ def test_a_joint_limit_is_kept_on_the_way_to_rest_too(rail):
     (limit,) = overruns_on_the_way_to_rest(wrist, *moved(wrist, 0.4, 2.0), DT)
     assert (limit.joint, limit.kind) == ('phi', LimitKind.POSITION)
     assert limit.asked == pytest.approx(0.4 + 2.0 * DT + 4.0 / (2.0 * DECELERATION))
+
+
+@pytest.mark.parametrize('width', [0.01, 0.03])
+def test_an_edge_that_is_crossed_and_left_again_on_the_way_to_rest_counts(rail, width):
+    """The joints would stop beyond a narrow place where they may not be."""
+
+    class Narrow(rail):
+        def clearances(self, positions):
+            away = positions[0] - 0.5
+            return (Clearance('narrow', away * away - width * width),)
+
+    wrist = Narrow().with_limits(decelerations=DECELERATION)
+    before, after = moved(wrist, 0.4, 1.5)  # to rest at 0.64
+    assert wrist.clearances((0.64,))[0].remaining > 0.0
+    (limit,) = overruns_on_the_way_to_rest(wrist, before, after, DT)
+    assert limit.joint == 'narrow'
 
 
 def test_where_the_joints_would_stop_in_a_gap_the_step_is_not_made(rail):

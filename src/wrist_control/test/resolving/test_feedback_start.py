@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import Mode
 
 PITCH = (0.0, 0.0, 0.0, 0.0, 0.3, 0.0)
 WRIST = make_wrist('three_gimbal')

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from wrist_control import make_wrist
-from wrist_control.resolving.supervisor import Mode
+from wrist_control.resolving.period import Mode
 from wrist_control.testing.eased import longest_change
 
 WRIST = make_wrist('three_gimbal').with_limits(

@@ -3,9 +3,9 @@
 import pytest
 
 from wrist_control import make_wrist
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.state import ZERO_TWIST
-from wrist_control.resolving.supervisor import Mode
 
 DT = 0.01
 LONG = 10.0  # s: no command runs out here

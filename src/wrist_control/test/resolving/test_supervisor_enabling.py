@@ -8,8 +8,8 @@ import pytest
 
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.errors import RefusedError
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import Mode
 
 PITCH = (0.0, 0.0, 0.0, 0.0, 0.3, 0.0)
 NAMES = ('psi', 'theta', 'phi')

@@ -6,8 +6,8 @@ import re
 import pytest
 
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import Mode
 
 PITCH = (0.0, 0.0, 0.0, 0.0, 0.3, 0.0)
 LAG = 0.1  # rad, that a joint may be behind its command

@@ -6,10 +6,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from wrist_control import InvalidValueError, make_wrist
+from wrist_control import InvalidValueError, UnreachableError, make_wrist
+from wrist_control.resolving import start
+from wrist_control.resolving.homing import check_way_home
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.state import ZERO_TWIST
-from wrist_control.resolving.supervisor import Mode
 
 PITCH = (0.0, 0.0, 0.0, 0.0, 0.3, 0.0)
 WRIST = make_wrist('three_gimbal')
@@ -94,13 +96,53 @@ def test_a_reset_to_where_new_limits_forbid_to_be_is_refused(wrist):
     assert wrist.supervisor.mode is Mode.FOLLOWING
 
 
-def test_a_reset_that_the_mechanism_cannot_make_is_a_fault_and_not_a_crash(clocked, rail):
+@pytest.fixture
+def gapped(rail):
     class Gapped(rail):
         gap = (0.4, 0.6)
 
-    wrist = clocked(Gapped(), (0.0,))
+    return Gapped()
+
+
+def test_a_reset_that_the_mechanism_cannot_make_is_refused(clocked, gapped):
+    wrist = clocked(gapped, (0.0,))
+    wrist.rest((1.0,), ('phi',))
+    with pytest.raises(InvalidValueError, match=r'Cannot reset: the straight way back crosses'):
+        wrist.supervisor.reset()
+    assert wrist.supervisor.mode is Mode.FOLLOWING
+
+
+def test_a_reset_that_cannot_go_on_is_a_fault_and_not_a_crash(clocked, rail, gapped):
+    wrist = clocked(rail(), (0.0,))
     wrist.rest((1.0,), ('phi',))
     wrist.supervisor.reset()
+    wrist.supervisor.wrist = gapped
     states = [one.wrist_state for one in wrist.ticks(2.0)]
     assert states[-1] == WristState.FAULT
+    assert 'cannot go on' in wrist.tick().message
     assert 0.6 <= wrist.positions[0] <= 0.61
+
+
+def test_a_reset_over_an_edge_is_refused_and_names_it(clocked):
+    """Between two places inside the carpal wrist's edges the straight way may lead outside."""
+    carpal = make_wrist('carpal')
+    ways = np.random.default_rng(4)
+    crossing = 0
+    for _ in range(400):
+        ends = [carpal.home + ways.uniform(-1.2, 1.2, 3) for _ in range(2)]
+        try:
+            inside = [min(c.remaining for c in carpal.clearances(tuple(end))) for end in ends]
+            states = [start(carpal, tuple(end)) for end in ends]
+        except (InvalidValueError, UnreachableError):
+            continue
+        lowest = min(
+            min(c.remaining for c in carpal.clearances(tuple(ends[0] + s * (ends[1] - ends[0]))))
+            for s in np.linspace(0.0, 1.0, 101)
+        )
+        if lowest < 0.0 < min(inside):
+            crossing += 1
+            with pytest.raises(InvalidValueError, match='crosses'):
+                check_way_home(carpal, states[0], tuple(ends[1]))
+        elif lowest > 0.0:
+            check_way_home(carpal, states[0], tuple(ends[1]))
+    assert crossing > 0

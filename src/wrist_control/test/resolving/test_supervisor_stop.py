@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from wrist_control import InvalidValueError
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import Mode
 
 ROLL = (0.0, 0.0, 0.0, 0.4, 0.0, 0.0)
 

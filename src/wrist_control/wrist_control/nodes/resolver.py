@@ -27,8 +27,9 @@ from wrist_control.nodes.resolver_settings import (
     specs,
 )
 from wrist_control.resolving.announcer import Announcer
+from wrist_control.resolving.period import Mode, PeriodResult
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import Mode, PeriodResult, Supervisor
+from wrist_control.resolving.supervisor import Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
 from wrist_control.ros.guarded import GuardedNode

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from wrist_control.resolving.clock_watch import ClockWatch
-from wrist_control.resolving.supervisor import Mode, Supervisor
+from wrist_control.resolving.period import Mode
+from wrist_control.resolving.supervisor import Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.timing import Timing

@@ -13,10 +13,11 @@ from std_msgs.msg import Bool, Empty
 from wrist_control.errors import RefusedError
 from wrist_control.nodes.resolver_clock import StepClock
 from wrist_control.resolving.commands import CommandPolicy, ReceivedTwist
+from wrist_control.resolving.period import Mode
 from wrist_control.resolving.permission import Deadman
 from wrist_control.resolving.sources import Origin, Sources
 from wrist_control.resolving.stamp_order import StampOrder
-from wrist_control.resolving.supervisor import Mode, Supervisor
+from wrist_control.resolving.supervisor import Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import Diagnostics
 from wrist_control.ros.guarded import GuardedNode

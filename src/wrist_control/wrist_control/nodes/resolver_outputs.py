@@ -15,7 +15,7 @@ from std_msgs.msg import Float64MultiArray, Header
 from visualization_msgs.msg import MarkerArray
 
 from wrist_control.resolving.announcer import SteadyAxis
-from wrist_control.resolving.supervisor import PeriodResult
+from wrist_control.resolving.period import PeriodResult
 from wrist_control.ros import convert
 from wrist_control.ros.markers import wrist_markers
 from wrist_control.ros.qos import LASTING, OUTPUT

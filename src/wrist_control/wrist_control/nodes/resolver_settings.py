@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.resolving.supervisor import SupervisorSettings
+from wrist_control.resolving.period import SupervisorSettings
 from wrist_control.ros.parameters import Spec
 from wrist_control.wrists import Wrist, wrist_class
 from wrist_control.wrists.joint import broadcast_to_joints
@@ -16,6 +16,8 @@ from wrist_control.wrists.joint import broadcast_to_joints
 CAREFUL = {'revolute': math.radians(32.0), 'prismatic': 0.05}
 # How long a joint takes to full speed, and from there to a stop, when nobody says, s.
 SPEEDING_UP, SLOWING_DOWN = 0.25, 0.1
+# No stop may take longer than this, s, from its rate limit or from what is fast at most.
+LONGEST_STOP, FAST = 10.0, {'revolute': 10.0, 'prismatic': 1.0}
 # How far a joint may be behind its command, rad and m.
 BEHIND = {'revolute': 0.1, 'prismatic': 0.005}
 
@@ -162,13 +164,21 @@ def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
     Raises:
         InvalidValueError: The limits cannot be used.
     """
-    return wrist.with_limits(
+    wrist = wrist.with_limits(
         rates=values['joint_rate_limits'],
         lower=values['joint_lower_limits'],
         upper=values['joint_upper_limits'],
         accelerations=values['joint_acceleration_limits'],
         decelerations=values['joint_deceleration_limits'],
     )
+    for joint in wrist.joints:
+        if joint.deceleration_limit < min(joint.rate_limit, FAST[joint.kind]) / LONGEST_STOP:
+            raise InvalidValueError(
+                f'joint_deceleration_limits has {joint.deceleration_limit:g} for {joint.name}, '
+                f'which may move at {joint.rate_limit:g}: valid is what stops it within '
+                f'{LONGEST_STOP:g} s.'
+            )
+    return wrist
 
 
 def check_ceilings(wrist: Wrist, started: Mapping[str, Any], changed: Mapping[str, Any]) -> None:

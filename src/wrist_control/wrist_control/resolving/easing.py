@@ -36,6 +36,8 @@ Found: TypeAlias = 'tuple[float, State | None, list[LimitAtWork]]'
 # The factor is exact after few corrections where the way of a step is nearly straight, and after
 # so many beside an edge, where the joints go with a root of the factor.
 CORRECTIONS = 8
+# Rates that are less than this share of those that there are can be nothing but rest.
+ROUNDOFF = 1e-12
 # By which powers of the factor a rate goes, at least and at most.
 POWERS = (0.25, 4.0)
 
@@ -55,6 +57,8 @@ def eased(
     factor, wanted, limits = found
     if wanted is None or not wrist.limits_acceleration:
         return factor, wanted or brought_to_rest(wrist, state, dt), limits
+    if _is_nothing_beside(state, wanted, dt):
+        return factor, brought_to_rest(wrist, state, dt), limits
     windows = rate_windows(wrist.joints, state.joint_rates, dt)
     rates = increments(state.positions, wanted.positions, dt)
     held = _held_back(wrist.joints, state.joint_rates, rates, windows, dt)
@@ -67,6 +71,13 @@ def eased(
     share = _nearest_share(rates, windows)
     nearest = [window.nearest(share * rate) for rate, window in zip(rates, windows, strict=True)]
     return min(1.0, share * factor), _near(wrist, state, wanted, nearest, dt), limits
+
+
+def _is_nothing_beside(state: State, wanted: State, dt: float) -> bool:
+    """Return whether what is wanted is no motion beside the one that there is."""
+    moving = max(map(abs, state.joint_rates), default=0.0)
+    rates = increments(state.positions, wanted.positions, dt)
+    return max(map(abs, rates)) < ROUNDOFF * moving
 
 
 def brought_to_rest(wrist: Wrist, state: State, dt: float) -> State:

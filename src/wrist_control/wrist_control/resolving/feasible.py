@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from wrist_control.errors import UnreachableError
@@ -57,10 +57,11 @@ def overruns_on_the_way_to_rest(
     """Return the limits that joints would overrun that stop after a step as quickly as they may.
 
     They stop on a straight line, after half the stopping time T at the rates of the step; at once
-    where one step is enough. Of a share s of it, s dt + s² T / 2 are used of dt + T / 2.
+    where one step is enough. Of a share s of it, s dt + s² T / 2 are used of dt + T / 2. Beside
+    an edge that bends every step of the way counts: it may lead over the edge and back.
 
     Raises:
-        UnreachableError: They would stop where the mechanism cannot be.
+        UnreachableError: They would come to where the mechanism cannot be.
     """
     if not wrist.limits_acceleration:
         return []
@@ -68,13 +69,38 @@ def overruns_on_the_way_to_rest(
     time = stopping_time(wrist.joints, rates)
     if time <= dt:
         return []
+
+    def at(travel: float) -> Positions:
+        way = zip(after.positions, rates, strict=True)
+        return wrist.resolve_assembly([old + travel * rate for old, rate in way], after.pose)
+
     half = 0.5 * time
-    way = zip(after.positions, rates, strict=True)
-    rest = wrist.resolve_assembly([at + half * rate for at, rate in way], after.pose)
-    return [
-        limit._replace(share=_share(limit.share * (dt + half), dt, half))
-        for limit in overruns(wrist, before.positions, rest, math.inf)
-    ]
+    for travel in (half, *_travels(wrist, at, half, time / dt, dt)):
+        broken = overruns(wrist, before.positions, at(travel), math.inf)
+        if broken:
+            return [
+                limit._replace(share=_share(limit.share * (dt + travel), dt, half))
+                for limit in broken
+            ]
+    return []
+
+
+def _travels(
+    wrist: Wrist, at: Callable[[float], Positions], half: float, steps: float, dt: float
+) -> Iterator[float]:
+    """Yield how far joints have come after each step of slowing down, as times at full rate, s.
+
+    Nothing where the way is far from every edge: further than the edges bend on it.
+    """
+    begin, middle, end = (wrist.clearances(at(share * half)) for share in (0.0, 0.5, 1.0))
+    bends = (
+        min(a.remaining, b.remaining, c.remaining)
+        < abs(a.remaining - 2.0 * b.remaining + c.remaining)
+        for a, b, c in zip(begin, middle, end, strict=True)
+    )
+    if any(bends):
+        for step in range(1, math.ceil(steps)):
+            yield dt * (step - 0.5 * step * (step + 1) / steps)
 
 
 def _share(used: float, dt: float, half: float) -> float:

@@ -5,15 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.resolving.easing import brought_to_rest, eased
-from wrist_control.resolving.limits import LimitAtWork, joint_overruns, smallest_share
+from wrist_control.resolving.feasible import Target, within_limits
+from wrist_control.resolving.limits import joint_overruns, smallest_share
 from wrist_control.resolving.rate_windows import stopping_time
+from wrist_control.resolving.search import largest_share
 from wrist_control.resolving.state import State, Step, increments, step_between
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Wrist
 
 # Speeds for joints without a rate limit of their own: rad/s, m/s.
 CALM = {'revolute': 0.5, 'prismatic': 0.02}
+# A way home is looked at in so many places.
+PARTS = 100
 
 
 def step_home(
@@ -39,18 +44,46 @@ def _towards(wrist: Wrist, state: State, goal: Sequence[float], dt: float, share
     joints = [_calm(joint) for joint in wrist.joints]
     whole = increments(state.positions, tuple(goal), dt)
 
-    def attempt(part: float) -> tuple[State | None, list[LimitAtWork]]:
+    def target(part: float) -> Target:
         if part > 1.0:
-            return None, []
+            raise UnreachableError('The goal is nearer.', 'goal')
         way = zip(state.positions, goal, strict=True)
-        positions = wrist.resolve_assembly(
-            [old + part * (new - old) for old, new in way], state.pose
-        )
-        return State(positions, wrist.forward(positions)), []
+        moved = [old + part * (new - old) for old, new in way]
+        return wrist.resolve_assembly(moved, state.pose), ()
 
+    # The rates are chosen below, and of an edge it only counts whether it is crossed.
+    attempt = within_limits(wrist, state, target, math.inf)
     reach = smallest_share(joint_overruns(joints, state.positions, tuple(goal), share * dt))
     part = min(reach, _largest_part_to_stop_after(stopping_time(wrist.joints, whole) / dt))
-    return eased(wrist, state, attempt, (part, attempt(part)[0], []), dt)[1]
+    return eased(wrist, state, attempt, largest_share(attempt, part), dt)[1]
+
+
+def check_way_home(wrist: Wrist, state: State, goal: Sequence[float]) -> None:
+    """See that the straight way to joint positions stays inside every limit.
+
+    Args:
+        wrist: The mechanism, with the limits to keep.
+        state: Where it is.
+        goal: Joint positions to go to, rad or m.
+
+    Raises:
+        InvalidValueError: It leads over an edge of the workspace.
+    """
+    begin, near = [*state.positions], state.pose
+    for part in range(1, PARTS + 1):
+        way = zip(begin, goal, strict=True)
+        moved = [old + part / PARTS * (new - old) for old, new in way]
+        try:
+            positions = wrist.resolve_assembly(moved, near)
+            near = wrist.forward(positions)
+            crossed = [limit.name for limit in wrist.clearances(positions) if limit.remaining < 0]
+        except UnreachableError as error:
+            crossed = [error.limit]
+        if crossed:
+            raise InvalidValueError(
+                f'Cannot reset: the straight way back crosses {", ".join(crossed)}; lead the hand '
+                'nearer to initial_positions, and call ~/reset again there.'
+            )
 
 
 def _largest_part_to_stop_after(time: float) -> float:

@@ -12,6 +12,8 @@ from wrist_control.wrists.wrist import Wrist
 
 # Part of the command that the mechanism may leave out before the operator is told, rad/s or m/s.
 NOTICEABLE = 1e-3
+SILENT = 'No fresh command: ramped to a stop; send commands again to go on.'
+RESETTING = 'Resetting: on the way back to initial_positions; commands do not count now.'
 
 
 class WristState(IntEnum):

@@ -12,19 +12,18 @@ from contextlib import suppress
 from wrist_control.errors import InvalidValueError, WristError
 from wrist_control.resolving.commands import Command, freshness, hand_twist
 from wrist_control.resolving.feedback import Feedback, checked_start, state_at
-from wrist_control.resolving.homing import has_reached, speed_of, step_home
+from wrist_control.resolving.homing import check_way_home, has_reached, speed_of, step_home
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.period import Mode, PeriodResult, SupervisorSettings
 from wrist_control.resolving.permission import Permission
 from wrist_control.resolving.ramp import Ramp, after_a_pause, scaled
-from wrist_control.resolving.report import WristState, sentence, state_of
+from wrist_control.resolving.report import RESETTING, SILENT, WristState, sentence, state_of
 from wrist_control.resolving.state import ZERO_TWIST, State, Twist, resting
 from wrist_control.resolving.step import start, step
 from wrist_control.wrists.wrist import Wrist
 
+DISABLED = 'Disabled: the hand stays where it is.'
 GO_ON = 'Call ~/enable to go on from where the joints are.'
-
-__all__ = ['Mode', 'PeriodResult', 'Supervisor', 'SupervisorSettings']
 
 
 class Supervisor:
@@ -126,8 +125,8 @@ class Supervisor:
             WristError: The wrist cannot go on from there; nothing has changed.
         """
         if not wanted:
-            self.stop('Disabled: the hand stays where it is.', Mode.DISABLED)
-            return 'Disabled: the hand stays where it is.'
+            self.stop(DISABLED, Mode.DISABLED)
+            return DISABLED
         if self.mode in (Mode.DISABLED, Mode.FAULT):
             self._take_over(receipt_time)
         elif self._ramp:
@@ -161,7 +160,8 @@ class Supervisor:
             raise InvalidValueError(
                 f'Cannot reset: {self.mode.value} is in charge; call ~/enable first.'
             )
-        start(self.wrist, self.settings.initial_positions)
+        goal = start(self.wrist, self.settings.initial_positions).positions
+        check_way_home(self.wrist, self.state, goal)
         self.mode = Mode.HOMING
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
@@ -205,6 +205,7 @@ class Supervisor:
 
     def _hold(self, receipt_time: float) -> PeriodResult:
         message = self._feedback.waiting_sentence(receipt_time, self.settings.feedback_timeout)
+        self._followed = ZERO_TWIST
         return self._step(ZERO_TWIST)._replace(wrist_state=WristState.WAITING, message=message)
 
     def _follow(
@@ -224,10 +225,7 @@ class Supervisor:
             result = self._step(hand_twist(command, self.state.pose.quaternion))
             self._followed = scaled(result.step.scale_factor, result.commanded)
         if fresh < 1.0 and any(command.twist):
-            return result._replace(
-                wrist_state=WristState.STALE,
-                message='No fresh command: ramped to a stop; send commands again to go on.',
-            )
+            return result.withheld(SILENT)
         return result
 
     def _step(self, commanded: Sequence[float]) -> PeriodResult:
@@ -242,17 +240,20 @@ class Supervisor:
     def _home(self, share: float) -> PeriodResult:
         goal = self.settings.initial_positions
         speed = share * self._home_speed if share < 1.0 else 1.0
-        taken = step_home(self.wrist, self.state, goal, self.settings.dt, speed)
+        before = self.state
+        taken = step_home(self.wrist, before, goal, self.settings.dt, speed)
         self.state = taken.state
         self._adopted, self._share = True, share
         if share == 1.0:
             self._home_speed, self._followed = speed_of(self.wrist, taken), ZERO_TWIST
         if has_reached(self.state, goal):
-            self.state = state_at(self.wrist, tuple(goal), self.state)._replace(time_lost=0.0)
+            there = state_at(self.wrist, tuple(goal), self.state)
+            self.state = there._replace(time_lost=0.0, joint_rates=taken.state.joint_rates)
             self.mode = Mode.FOLLOWING
             self._commands.clear()
-        message = 'Resetting: on the way back to initial_positions; commands do not count now.'
-        return PeriodResult(WristState.TRACKING, taken, ZERO_TWIST, message, True)
+        elif self.state == before and share == 1.0:
+            self.stop('The reset cannot go on: there is an edge in the way.', Mode.FAULT)
+        return PeriodResult(WristState.TRACKING, taken, ZERO_TWIST, RESETTING, True)
 
     def _ramped(self, result: PeriodResult) -> PeriodResult:
         assert self._ramp is not None
@@ -264,7 +265,7 @@ class Supervisor:
 
     def _settle(self, mode: Mode, message: str) -> None:
         self.mode, self._ramp, self._moving = mode, None, False
-        self.state = self.state._replace(joint_rates=())
+        self.state, self._followed = self.state._replace(joint_rates=()), ZERO_TWIST
         self._reason = f'{message} {GO_ON}'
         self._commands.clear()
 

@@ -75,12 +75,19 @@ def longest_change(joints: Sequence[Joint], before: Rates, after: Rates) -> floa
         after: The rates that they shall have.
     """
     return max(
-        _time_to_change(joint, old, new)
+        time_to_change(joint, old, new)
         for joint, old, new in zip(joints, before or (0.0,) * len(joints), after, strict=True)
     )
 
 
-def _time_to_change(joint: Joint, old: float, new: float) -> float:
+def time_to_change(joint: Joint, old: float, new: float) -> float:
+    """Return how long a joint needs at least from one rate to another, s.
+
+    Args:
+        joint: The joint, with its limits.
+        old: Its rate before, rad/s or m/s.
+        new: Its rate afterwards; through 0 it slows down first.
+    """
     if old * new < 0.0:
         return abs(old) / joint.deceleration_limit + abs(new) / joint.acceleration_limit
     gain = abs(new) - abs(old)

@@ -69,7 +69,7 @@ class Held(NamedTuple):
 
 def commands(wrist: Wrist, random: Random) -> Iterator[Held]:
     """Yield commands to hold, from places all over and beside locks, with all kinds of limits."""
-    places = [*regular_places(wrist, random, 12), *_beside_locks(wrist, random)]
+    places = [*regular_places(wrist, random, 12), *beside_locks(wrist, random)]
     for rate, flights in FLIGHTS.items():
         for number in range(flights):
             positions = places[random.integers(len(places))]
@@ -82,7 +82,7 @@ def commands(wrist: Wrist, random: Random) -> Iterator[Held]:
             yield Held(limited, start, twist.tolist(), 1.0 / rate)
 
 
-def _beside_locks(wrist: Wrist, random: Random) -> Iterator[Positions]:
+def beside_locks(wrist: Wrist, random: Random) -> Iterator[Positions]:
     """Yield places where a start is allowed, a hundredth to a tenth of a radian from a lock."""
     for line, at in locks(wrist, random):
         with suppress(UnreachableError):
