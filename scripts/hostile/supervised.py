@@ -88,7 +88,10 @@ class Supervised:
         stamp = self._now + self._skew
         homing = self.supervisor.mode is Mode.HOMING
         result = self.supervisor.tick(
-            stamp_time=stamp, receipt_time=self._now, withheld=self._withheld
+            stamp_time=stamp,
+            receipt_time=self._now,
+            withheld=self._withheld,
+            pause=pause * self._dt,
         )
         self._verdict.count += 1
         self._judge(result, pause, homing)
