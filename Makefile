@@ -41,15 +41,13 @@ bench: setup  ## measure how fast it is, as ratios within one run
 mutants: setup  ## put small faults into the code and see that the tests find them
 	@./env python3 scripts/mutants.py
 
-<<<<<<< HEAD
 .PHONY: hour
 hour: setup  ## hold every wrist's stick for a simulated hour: nothing may drift or grow
 	@./env python3 scripts/hour.py
-=======
+
 .PHONY: campaign
 campaign: setup  ## attack the library and the nodes, with a million steps and messages
 	@./env python3 scripts/campaign.py
->>>>>>> wt-campaign
 
 .PHONY: compare
 compare: setup  ## fly every wrist through the same maneuvers and compare them

@@ -117,7 +117,7 @@ def _along_command(
 ) -> tuple[float, State] | None:
     """Return the factor that brings all rates inside their windows, and its state, or None."""
     made: State | None = wanted
-    power, moved, before = 1.0, 0.0, 0.0
+    power, moved, before, first = 1.0, 0.0, 0.0, factor
     for _ in range(CORRECTIONS):
         if made is None:
             break
@@ -133,6 +133,8 @@ def _along_command(
             power = min(max((before - missing) / moved, least), most)
         moved, before = missing / power, missing
         factor *= math.exp(moved)
+        if factor * ROUNDOFF > first:
+            break
         made, _ = attempt(factor)
     return None
 

@@ -7,8 +7,12 @@ from collections.abc import Sequence
 
 from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.resolving.easing import brought_to_rest, eased
-from wrist_control.resolving.feasible import Target, within_limits
-from wrist_control.resolving.limits import joint_overruns, smallest_share
+from wrist_control.resolving.feasible import (
+    Target,
+    overruns_on_the_way_to_rest,
+    within_limits,
+)
+from wrist_control.resolving.limits import LimitAtWork, joint_overruns, smallest_share
 from wrist_control.resolving.rate_windows import stopping_time
 from wrist_control.resolving.search import largest_share
 from wrist_control.resolving.state import State, Step, increments, step_between
@@ -52,7 +56,14 @@ def _towards(wrist: Wrist, state: State, goal: Sequence[float], dt: float, share
         return wrist.resolve_assembly(moved, state.pose), ()
 
     # The rates are chosen below, and of an edge it only counts whether it is crossed.
-    attempt = within_limits(wrist, state, target, math.inf)
+    inside = within_limits(wrist, state, target, math.inf)
+
+    def attempt(part: float) -> tuple[State | None, Sequence[LimitAtWork]]:
+        made, broken = inside(part)
+        if made is not None:
+            broken = overruns_on_the_way_to_rest(wrist, state, made, dt)
+        return (None, broken) if broken else (made, broken)
+
     reach = smallest_share(joint_overruns(joints, state.positions, tuple(goal), share * dt))
     part = min(reach, _largest_part_to_stop_after(stopping_time(wrist.joints, whole) / dt))
     return eased(wrist, state, attempt, largest_share(attempt, part), dt)[1]
