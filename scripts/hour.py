@@ -24,6 +24,7 @@ from rich.table import Table
 
 from wrist_control import WRISTS, make_wrist
 from wrist_control.resolving import start, step
+from wrist_control.testing.eased import sluggish
 from wrist_control.testing.places import random_twist
 from wrist_control.wrists import Wrist
 
@@ -65,12 +66,7 @@ class Drift(NamedTuple):
 def limited(name: str) -> Wrist:
     """Return a wrist with the limits of a resolver that is told none."""
     wrist = make_wrist(name)
-    rates = [FASTEST[joint.kind] for joint in wrist.joints]
-    return wrist.with_limits(
-        rates=rates,
-        accelerations=[4.0 * rate for rate in rates],
-        decelerations=[10.0 * rate for rate in rates],
-    )
+    return sluggish(wrist.with_limits(rates=[FASTEST[joint.kind] for joint in wrist.joints]))
 
 
 def rotation_of(turn: np.ndarray) -> np.ndarray:

@@ -1,21 +1,15 @@
 """The short form of `make hour`: 20 s of simulated stick motion for each wrist."""
 
-import runpy
-from pathlib import Path
-
 import pytest
 
+import hour
 from wrist_control import WRISTS
 from wrist_control.resolving import state
-
-HELD_FOR = runpy.run_path(str(Path(__file__).resolve().parents[1] / 'scripts' / 'hour.py'))[
-    'held_for'
-]
 
 
 @pytest.mark.parametrize('name', WRISTS)
 def test_nothing_drifts_and_nothing_grows(name):
-    drift = HELD_FOR(name, 20.0)
+    drift = hour.held_for(name, 20.0)
     assert drift.good, drift
 
 
@@ -26,4 +20,4 @@ def test_a_hand_that_does_a_little_more_than_it_says_is_seen(monkeypatch):
         return tuple((1.0 - 1e-8) * x for x in twist_between(*arguments))
 
     monkeypatch.setattr(state, 'twist_between', less)
-    assert not HELD_FOR('three_gimbal', 20.0).good
+    assert not hour.held_for('three_gimbal', 20.0).good

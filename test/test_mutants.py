@@ -1,33 +1,15 @@
 """The lists that `make mutants` goes by are true: every text and every file is still there."""
 
-import sys
 from pathlib import Path
 
-import pytest
-
-ROOT = Path(__file__).resolve().parents[1]
-SCRIPTS = ROOT / 'scripts'
+import mutants
 
 
-@pytest.fixture
-def mutants(monkeypatch):
-    monkeypatch.syspath_prepend(str(SCRIPTS))
-    import mutants
-
-    yield mutants
-    for module in [m for m in sys.modules.values() if _folder(m) == SCRIPTS]:
-        del sys.modules[module.__name__]
-
-
-def _folder(module):
-    return Path(module.__file__).parent if getattr(module, '__file__', None) else None
-
-
-def test_every_chosen_fault_can_be_made(mutants):
+def test_every_chosen_fault_can_be_made():
     assert len(mutants.chosen()) >= 37
 
 
-def test_every_fault_that_is_none_would_be_made_if_it_were_not_left_out(mutants):
+def test_every_fault_that_is_none_would_be_made_if_it_were_not_left_out():
     for one in mutants.EQUIVALENT:
         source = (mutants.PACKAGE / one.file).read_bytes()
         lines = [line.strip() for line in source.decode().splitlines()]
@@ -35,7 +17,7 @@ def test_every_fault_that_is_none_would_be_made_if_it_were_not_left_out(mutants)
         assert one[1:4] in {(lines[x.line - 1], x.before, x.after) for x in made}, one
 
 
-def test_every_module_has_tests_that_matter_and_all_of_them_are_there(mutants):
+def test_every_module_has_tests_that_matter_and_all_of_them_are_there():
     for folder in mutants.FOLDERS:
         for path in (mutants.PACKAGE / folder).glob('*.py'):
             tests = mutants.tests_of(f'{folder}/{path.name}')

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
+from collections.abc import Callable
 from typing import Any
 
 import rclpy
@@ -42,31 +43,29 @@ def paced(count: int, pace: float = PACE) -> Any:
 
 def stamped_commands(stage: Stage, random: Random, count: int) -> None:
     """Send commands that must be refused to a hand at rest, and then any between good ones."""
-    stage.hand()
-    stage.until_held()
-    publisher = stage.publisher(TwistStamped, 'cmd_vel')
-    for number in paced(count):
-        if number < AT_REST * count:
-            publisher.publish(refused_stamped(random))
-        else:
-            stage.judge.allow()
-            good = random.random() < 0.3
-            publisher.publish(honest(random) if good else hostile_stamped(random))
-        stage.sent()
+    _commands(stage, random, count, 'cmd_vel', refused_stamped)
 
 
 def unstamped_commands(stage: Stage, random: Random, count: int) -> None:
     """Do the same on the topic without stamps."""
+    _commands(stage, random, count, 'cmd_vel_unstamped', refused_twist)
+
+
+def _commands(
+    stage: Stage, random: Random, count: int, topic: str, refused: Callable[[Random], Any]
+) -> None:
+    stamped = topic == 'cmd_vel'
     stage.hand()
     stage.until_held()
-    publisher = stage.publisher(Twist, 'cmd_vel_unstamped')
+    publisher = stage.publisher(TwistStamped if stamped else Twist, topic)
     for number in paced(count):
         if number < AT_REST * count:
-            publisher.publish(refused_twist(random))
+            publisher.publish(refused(random))
         else:
             stage.judge.allow()
             good = random.random() < 0.3
-            publisher.publish(honest(random).twist if good else hostile_stamped(random).twist)
+            message = honest(random) if good else hostile_stamped(random)
+            publisher.publish(message if stamped else message.twist)
         stage.sent()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
-from wrist_control.testing.eased import time_to_change
+from wrist_control.testing.eased import stopping_time, time_to_change
 from wrist_control.wrists import Clearance, Joint
 
 # Rates and the time that their changes need: relative.
@@ -77,7 +77,4 @@ def speeds_up(before: Sequence[float], rates: Sequence[float], dt: float) -> boo
 
 def stopping_steps(joints: Sequence[Joint], rates: Sequence[float], dt: float) -> float:
     """Return within how many steps joints can be at rest that have these rates."""
-    return max(
-        abs(rate) / joint.deceleration_limit / dt
-        for joint, rate in zip(joints, rates, strict=True)
-    )
+    return stopping_time(joints, rates) / dt

@@ -17,7 +17,6 @@ from types import TracebackType
 from typing import Any
 
 import rclpy
-from ament_index_python.packages import get_package_prefix
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped, Twist
 from rclpy.executors import SingleThreadedExecutor
@@ -28,10 +27,10 @@ from std_srvs.srv import SetBool
 
 from hostile.listening import Judge, Pulse, floats_of
 from hostile.verdict import Verdict
+from wrist_control.graph.processes import executable_file
 from wrist_control.wrists import Joint, make_wrist
 from wrist_interfaces.msg import WristStatus
 
-EXECUTABLES = Path(get_package_prefix('wrist_control')) / 'lib' / 'wrist_control'
 WRIST, DT = 'three_gimbal', 0.01
 # The limits of the hand that is attacked: rad, rad/s, and the time to full speed and to a stop, s.
 REACH, RATE, FASTER, SLOWER = 1.2, 0.5, 0.25, 0.1
@@ -132,7 +131,7 @@ class Stage:
 
     def start(self, executable: str, **parameters: object) -> None:
         """Start a node in a process of its own, as users do."""
-        command = [str(EXECUTABLES / executable), '--ros-args', '--log-level', 'error']
+        command = [str(executable_file(executable)), '--ros-args', '--log-level', 'error']
         for name, value in parameters.items():
             command += ['-p', f'{name}:={str(value).lower() if value in (True, False) else value}']
         self._commands[executable] = command

@@ -28,6 +28,11 @@ def config_file(name: str) -> Path:
     return Path(get_package_share_directory(PACKAGE)) / 'config' / name
 
 
+def executable_file(name: str) -> Path:
+    """Return an executable of this package by name."""
+    return Path(get_package_prefix(PACKAGE)) / 'lib' / PACKAGE / name
+
+
 class NodeProcesses:
     """Starts nodes on a private clock, and ends all of them when the block is left.
 
@@ -56,8 +61,13 @@ class NodeProcesses:
         remaps = [f'__ns:={self.namespace}']
         remaps += [f'/{topic}:={self.namespace}/{topic}' for topic in ('clock', 'diagnostics')]
         values = [f'{name}:={_text(value)}' for name, value in parameters.items()]
-        command = [str(Path(get_package_prefix(PACKAGE)) / 'lib' / PACKAGE / executable)]
-        command += ['--ros-args', *_each('-r', remaps), '--log-level', 'warn']
+        command = [
+            str(executable_file(executable)),
+            '--ros-args',
+            *_each('-r', remaps),
+            '--log-level',
+            'warn',
+        ]
         command += [*_each('--params-file', map(str, self._files)), *_each('-p', values)]
         # In a group of their own, so that Ctrl-C reaches the caller alone, who ends them in order.
         self._running[executable] = subprocess.Popen(command, start_new_session=True)

@@ -57,10 +57,10 @@ def eased(
     factor, wanted, limits = found
     if wanted is None or not wrist.limits_acceleration:
         return factor, wanted or brought_to_rest(wrist, state, dt), limits
-    if _is_nothing_beside(state, wanted, dt):
+    rates = increments(state.positions, wanted.positions, dt)
+    if _is_nothing_beside(state.joint_rates, rates):
         return factor, brought_to_rest(wrist, state, dt), limits
     windows = rate_windows(wrist.joints, state.joint_rates, dt)
-    rates = increments(state.positions, wanted.positions, dt)
     held = _held_back(wrist.joints, state.joint_rates, rates, windows, dt)
     if not held:
         return factor, wanted, limits
@@ -73,11 +73,9 @@ def eased(
     return min(1.0, share * factor), _near(wrist, state, wanted, nearest, dt), limits
 
 
-def _is_nothing_beside(state: State, wanted: State, dt: float) -> bool:
+def _is_nothing_beside(before: Rates, wanted: Rates) -> bool:
     """Return whether what is wanted is no motion beside the one that there is."""
-    moving = max(map(abs, state.joint_rates), default=0.0)
-    rates = increments(state.positions, wanted.positions, dt)
-    return max(map(abs, rates)) < ROUNDOFF * moving
+    return max(map(abs, wanted)) < ROUNDOFF * max(map(abs, before), default=0.0)
 
 
 def brought_to_rest(wrist: Wrist, state: State, dt: float) -> State:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from itertools import chain
 from typing import TypeAlias
 
 from wrist_control.errors import UnreachableError
@@ -75,7 +76,7 @@ def overruns_on_the_way_to_rest(
         return wrist.resolve_assembly([old + travel * rate for old, rate in way], after.pose)
 
     half = 0.5 * time
-    for travel in (half, *_travels(wrist, at, half, time / dt, dt)):
+    for travel in chain((half,), _travels(wrist, at, half, time / dt, dt)):
         broken = overruns(wrist, before.positions, at(travel), math.inf)
         if broken:
             return [
@@ -92,7 +93,10 @@ def _travels(
 
     Nothing where the way is far from every edge: further than the edges bend on it.
     """
-    begin, middle, end = (wrist.clearances(at(share * half)) for share in (0.0, 0.5, 1.0))
+    begin = wrist.clearances(at(0.0))
+    if not begin:
+        return
+    middle, end = wrist.clearances(at(0.5 * half)), wrist.clearances(at(half))
     bends = (
         min(a.remaining, b.remaining, c.remaining)
         < abs(a.remaining - 2.0 * b.remaining + c.remaining)

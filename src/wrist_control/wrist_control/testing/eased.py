@@ -18,7 +18,7 @@ from wrist_control.testing.held import a_held_command_does_not_make_joints_chatt
 from wrist_control.testing.motion import confined, no_step_breaks_a_limit
 from wrist_control.testing.places import Random, random_twist
 from wrist_control.wrists.joint import Joint
-from wrist_control.wrists.wrist import Rates, Wrist
+from wrist_control.wrists.wrist import Wrist
 
 DT = 0.01
 FLIGHTS = 6
@@ -34,8 +34,7 @@ MISSED = 0.02
 
 
 def sluggish(wrist: Wrist) -> Wrist:
-    """Return a wrist in narrow limits whose joints take their time to change their rates."""
-    wrist = confined(wrist)
+    """Return a wrist whose joints take their time to their rate limits, and from there to rest."""
     rates = [joint.rate_limit for joint in wrist.joints]
     return wrist.with_limits(
         accelerations=[rate / SPEEDING_UP for rate in rates],
@@ -59,14 +58,16 @@ def flown(wrist: Wrist, random: Random) -> Iterator[tuple[State, Step, list[floa
 
 def no_rate_changes_faster_than_it_may(wrist: Wrist, random: Random) -> None:
     """The time that each joint needs from one rate to the next is not more than a step."""
-    wrist = sluggish(wrist)
+    wrist = sluggish(confined(wrist))
     for before, taken, twist in flown(wrist, random):
         time = longest_change(wrist.joints, before.joint_rates, taken.joint_rates)
         where = f'after {twist} at {tuple(before.positions)}'
         require(time <= DT * (1.0 + 1e-6), f'a rate would need {time:.6g} s to change, {where}')
 
 
-def longest_change(joints: Sequence[Joint], before: Rates, after: Rates) -> float:
+def longest_change(
+    joints: Sequence[Joint], before: Sequence[float], after: Sequence[float]
+) -> float:
     """Return the time that the slowest joint needs from one rate to another, s.
 
     Args:
@@ -78,6 +79,16 @@ def longest_change(joints: Sequence[Joint], before: Rates, after: Rates) -> floa
         time_to_change(joint, old, new)
         for joint, old, new in zip(joints, before or (0.0,) * len(joints), after, strict=True)
     )
+
+
+def stopping_time(joints: Sequence[Joint], rates: Sequence[float]) -> float:
+    """Return the time that the slowest joint needs to stop, s.
+
+    Args:
+        joints: The joints, with the limits of their accelerations.
+        rates: Their rates, rad/s or m/s.
+    """
+    return longest_change(joints, rates, (0.0,) * len(joints))
 
 
 def time_to_change(joint: Joint, old: float, new: float) -> float:
@@ -99,7 +110,7 @@ def the_direction_is_left_only_where_no_factor_can_keep_it(wrist: Wrist, random:
 
     The free step is that of joints whose rates may change at once.
     """
-    wrist = sluggish(wrist)
+    wrist = sluggish(confined(wrist))
     free = wrist.with_limits(accelerations=math.inf, decelerations=math.inf)
     for number, (before, taken, twist) in enumerate(flown(wrist, random)):
         if number % 4 or taken.singular or not any(twist):
@@ -134,10 +145,7 @@ def _can_be_made(wrist: Wrist, before: State, twist: Sequence[float], factor: fl
         rates = increments(before.positions, after, DT)
         if longest_change(wrist.joints, before.joint_rates, rates) > 0.99 * DT:
             return False
-        braking = max(
-            abs(rate) / joint.deceleration_limit
-            for joint, rate in zip(wrist.joints, rates, strict=True)
-        )
+        braking = stopping_time(wrist.joints, rates)
         end = [at + 0.51 * braking * rate for at, rate in zip(after, rates, strict=True)]
         rest = wrist.resolve_assembly(end, wrist.forward(after))
         return not (
@@ -152,16 +160,13 @@ def a_hand_without_a_command_stops_in_time_and_within_its_limits(
     wrist: Wrist, random: Random
 ) -> None:
     """From anywhere in a flight: straight, in the time that the slowest joint needs."""
-    wrist = sluggish(wrist)
+    wrist = sluggish(confined(wrist))
     for number, (_, taken, twist) in enumerate(flown(wrist, random)):
         if number % 10:
             continue
         where = f'after {twist} at {tuple(taken.state.positions)}'
         ways = [taken, *_to_rest(wrist, taken)]
-        longest = max(
-            abs(rate) / joint.deceleration_limit
-            for joint, rate in zip(wrist.joints, taken.joint_rates, strict=True)
-        )
+        longest = stopping_time(wrist.joints, taken.joint_rates)
         require(
             len(ways) <= longest / DT + 2.0, f'it takes {len(ways) - 1} steps to stop, {where}'
         )
@@ -180,14 +185,14 @@ def _to_rest(wrist: Wrist, taken: Step) -> Iterator[Step]:
 
 def joints_that_take_their_time_break_no_limit(wrist: Wrist, random: Random) -> None:
     """No position, cone or closure is overshot, at any rate."""
-    no_step_breaks_a_limit(sluggish(wrist), random)
+    no_step_breaks_a_limit(sluggish(confined(wrist)), random)
 
 
 def joints_that_take_their_time_come_to_the_free_joints_rates(
     wrist: Wrist, random: Random
 ) -> None:
     """Of a command that is held, as much is made in the end as by joints that are free."""
-    wrist = sluggish(wrist)
+    wrist = sluggish(confined(wrist))
     free = wrist.with_limits(accelerations=math.inf, decelerations=math.inf)
     for _ in range(FLIGHTS):
         state, twist = start(wrist), random_twist(wrist, random, 0.2)
@@ -206,10 +211,7 @@ def a_held_command_does_not_make_joints_chatter_that_take_their_time(
 ) -> None:
     """Through locks and at limits, as joints do whose rates may change at once."""
     rates = [FASTEST_HELD[joint.kind] for joint in wrist.joints]
-    held = wrist.with_limits(
-        accelerations=[rate / SPEEDING_UP for rate in rates],
-        decelerations=[rate / SLOWING_DOWN for rate in rates],
-    )
+    held = sluggish(wrist.with_limits(rates=rates))
     a_held_command_does_not_make_joints_chatter(held, random)
 
 

@@ -83,8 +83,12 @@ def with_limits(
     )
     return tuple(
         _checked(
-            joint._replace(lower=low, upper=up, rate_limit=rate)._replace(
-                acceleration_limit=faster, deceleration_limit=slower
+            joint._replace(
+                rate_limit=rate,
+                lower=low,
+                upper=up,
+                acceleration_limit=faster,
+                deceleration_limit=slower,
             )
         )
         for joint, rate, low, up, faster, slower in limits
