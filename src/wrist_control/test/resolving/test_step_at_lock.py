@@ -129,7 +129,18 @@ def test_a_pointer_that_is_driven_into_lock_turns_back_once_for_each_passage(at,
         assert made[-1].state.positions[0] > LOCKED + 0.1
 
 
-@given(st.floats(1e-9, 0.999e-3), st.floats(0.01, 1.0))
+# Nearer to lock than 1e-9 it is lock itself for the gimbals; at that, rounding decides.
+@given(st.floats(0.0, 0.99e-9), st.floats(0.01, 1.0))
+def test_exactly_at_lock_psi_takes_the_turn_that_phi_may_not_make(locked, off, p):
+    """There φ stays and ψ takes all: the two turn the hand about the same axis."""
+    wrist = WRIST.with_limits(rates=BARKER_SPEED, upper=(9.0, 9.0, 0.0))
+    made = step(wrist, locked(wrist, LOCKED - off), (p, 0.0, 0.0), H)
+    assert made.state.positions[2] == 0.0
+    assert made.scale_factor == pytest.approx(min(1.0, BARKER_SPEED / p))
+    assert made.achieved[3] == pytest.approx(min(p, BARKER_SPEED))
+
+
+@given(st.floats(1.01e-9, 0.999e-3), st.floats(0.01, 1.0))
 def test_a_position_limit_at_lock_is_named_and_the_way_back_is_open(locked, off, p):
     wrist = WRIST.with_limits(rates=BARKER_SPEED, upper=(9.0, 9.0, 0.0))
     state = locked(wrist, LOCKED - off)
