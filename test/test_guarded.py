@@ -25,7 +25,7 @@ from .test_processes import EXECUTABLES
 NODE = 'three_gimbal_resolver'
 NAMES = ['psi', 'theta', 'phi']
 # A step of a busy machine may be late; to unpack a million names takes twice as long.
-PAUSE = 0.1
+PAUSE = 0.25  # s; to look at every name takes 0.4 s
 
 
 class Turning:
