@@ -1,12 +1,16 @@
-"""Packaging of wrist_control: which executables and which data files are installed."""
+"""Packaging of wrist_control; who it is and its version are said in package.xml alone."""
 
+import os
 import runpy
 from glob import glob
 from pathlib import Path
+from xml.etree import ElementTree
 
 from setuptools import find_packages, setup
 
-PACKAGE = 'wrist_control'
+HERE = Path(__file__).resolve().parent
+MANIFEST = ElementTree.parse(HERE / 'package.xml').getroot()
+PACKAGE = MANIFEST.findtext('name')
 
 # Executables that do not depend on the kind of wrist: the name, and the module under nodes/.
 NODES = [
@@ -21,33 +25,42 @@ def wrist_names():
 
     The registry is a plain dictionary, and is run on its own, so that a build needs no numpy.
     """
-    registry = Path(__file__).resolve().parent / PACKAGE / 'wrists' / 'registry.py'
+    registry = HERE / PACKAGE / 'wrists' / 'registry.py'
     return sorted(runpy.run_path(str(registry))['WRISTS'])
 
 
 def console_scripts():
-    """Return one executable per node, and one resolver per wrist."""
+    """Return one executable per node, and one resolver per wrist; none where there is no ROS."""
+    if not os.environ.get('AMENT_PREFIX_PATH'):
+        return []
     names = NODES + [f'{wrist}_resolver' for wrist in wrist_names()]
     return [f'{name} = {PACKAGE}_start:{name}' for name in names]
 
 
 setup(
     name=PACKAGE,
-    version='0.1.0',
-    description="Turns an operator's hand rates into joint rates for robot wrists.",
-    license='Apache-2.0',
-    maintainer='wrist_control maintainers',
-    maintainer_email='maintainers@example.org',
+    version=MANIFEST.findtext('version'),
+    description=MANIFEST.findtext('description'),
+    license=MANIFEST.findtext('license'),
+    license_files=['LICENSE'],
+    maintainer=MANIFEST.findtext('maintainer'),
+    maintainer_email=MANIFEST.find('maintainer').get('email'),
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     py_modules=[f'{PACKAGE}_start'],
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
-        (f'share/{PACKAGE}', ['package.xml']),
-        # config is a link to the folder of the same name at the root of the repository.
+        (f'share/{PACKAGE}', ['package.xml', 'CHANGELOG.rst', 'LICENSE']),
         (f'share/{PACKAGE}/config', sorted(glob('config/*.yaml'))),
     ],
-    install_requires=['setuptools'],
-    extras_require={'test': ['pytest']},  # without this, `colcon test` finds no tests
-    zip_safe=True,
+    python_requires='>=3.10',
+    install_requires=['numpy>=1.26'],
+    extras_require={
+        'figures': ['matplotlib', 'pillow', 'rich'],
+        # ROS 2 Jazzy from its wheels; wrist_interfaces is built beside it, with colcon.
+        'ros': ['ros-jazzy-common-interfaces==5.3.6', 'ros-jazzy-rclpy[fastrtps]==7.1.6'],
+        # By this name `colcon test` knows which tool runs the tests.
+        'test': ['hypothesis', 'pytest', 'pytest-timeout', 'scipy'],
+    },
+    zip_safe=False,
     entry_points={'console_scripts': console_scripts()},
 )
