@@ -152,7 +152,8 @@ def test_the_wheel_says_what_it_needs(dist):
 def test_the_source_release_is_whole(dist):
     """The wheel that is built from it has the same files; tests, configuration and all are in."""
     (source,) = dist.glob('*.tar.gz')
-    names = {name.partition('/')[2] for name in tarfile.open(source).getnames()}
+    with tarfile.open(source) as archive:
+        names = {name.partition('/')[2] for name in archive.getnames()}
     wanted = {
         str(file.relative_to(CONTROL))
         for file in CONTROL.rglob('*')

@@ -16,7 +16,7 @@ from wrist_control.resolving.simulated_joint import follow
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
-from wrist_control.ros.parameters import Spec, declare
+from wrist_control.ros.parameters import Spec
 from wrist_control.ros.qos import EVERY, LASTING, OUTPUT
 from wrist_control.ros.running import run
 from wrist_control.wrists.joint import Joint, broadcast_to_joints
@@ -58,7 +58,7 @@ class JointSimulator(GuardedNode):
             WristError: A parameter cannot be used; the sentence says why.
         """
         super().__init__('joint_simulator', **node_options)
-        self._values = declare(self, SPECS)
+        self._values = self.declare(SPECS)
         self._joints: list[Joint] = []
         self._positions: list[float] = []
         self._commands: LatestMessage[list[float]] = LatestMessage()

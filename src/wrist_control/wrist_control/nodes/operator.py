@@ -25,7 +25,7 @@ from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
-from wrist_control.ros.parameters import Spec, declare, watch
+from wrist_control.ros.parameters import Spec
 from wrist_control.ros.qos import NEWEST, OUTPUT
 from wrist_control.ros.running import run
 from wrist_interfaces.msg import WristStatus
@@ -48,9 +48,9 @@ SPECS = [
         100.0,
         live=True,
     ),
-    Spec('listeners', 1.0, 'Subscribers of cmd_vel that a maneuver waits for', '', 0.0, 100.0),
+    Spec('listeners', 1, 'Subscribers of cmd_vel that a maneuver waits for', '', 0, 100),
     Spec('frame_id', '', 'Frame of the commands: the hand frame, the forearm frame, or empty'),
-    Spec('joy_axes', [0.0, 1.0, 3.0], 'Numbers of the axes for p, q, r', '', 0.0, 100.0),
+    Spec('joy_axes', [0, 1, 3], 'Numbers of the axes for p, q, r', '', 0, 100),
     Spec(
         'joy_scales',
         [-BARKER_SPEED, BARKER_SPEED, BARKER_SPEED],
@@ -61,7 +61,7 @@ SPECS = [
     ),
     Spec('joy_deadzone', 0.05, 'Deflection that counts as none', '', 0.0, 0.9),
     Spec('joy_timeout', 0.5, 'Silence after which a joystick counts as released', 's', 0.01, 10.0),
-    Spec('enable_button', 5.0, 'Button that must be held, -1 for none', '', -1.0, 100.0),
+    Spec('enable_button', 5, 'Button that must be held, -1 for none', '', -1, 100),
 ]
 TRIPLES = ('constant_rates', 'joy_axes', 'joy_scales')
 
@@ -79,14 +79,14 @@ class Operator(GuardedNode):
             WristError: A parameter cannot be used; the sentence says why.
         """
         super().__init__('operator', **node_options)
-        self._values = declare(self, SPECS)
+        self._values = self.declare(SPECS)
         self._check(self._values)
         self._period = 1.0 / self._values['rate']
         self._pilot: Pilot | None = None
         self._joystick: JoystickWithTimeout | None = None
         self._times_lost: LatestMessage[float] = LatestMessage()
         self._wrist_is_up = False
-        watch(self, SPECS, self._check, self._values.update)
+        self.watch(self._check, self._values.update)
         self._diagnostics = Diagnostics(self, self._health)
         self._publisher = self.create_publisher(TwistStamped, 'cmd_vel', OUTPUT)
         self._take_up(self._values['maneuver'])
@@ -101,10 +101,10 @@ class Operator(GuardedNode):
             self.create_subscription(WristStatus, 'wrist_status', self._on_status, NEWEST)
 
     def _mapping(self) -> Joystick:
-        x, y, z = (round(number) for number in self._values['joy_axes'])
+        x, y, z = self._values['joy_axes']
         p, q, r = self._values['joy_scales']
-        button = round(self._values['enable_button'])
-        return Joystick((x, y, z), (p, q, r), self._values['joy_deadzone'], button)
+        button, deadzone = self._values['enable_button'], self._values['joy_deadzone']
+        return Joystick((x, y, z), (p, q, r), deadzone, button)
 
     @staticmethod
     def _check(values: dict[str, Any]) -> None:

@@ -33,7 +33,6 @@ from wrist_control.resolving.supervisor import Supervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
-from wrist_control.ros.parameters import declare, watch
 from wrist_control.ros.polled_services import PolledServices
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
@@ -70,8 +69,7 @@ class Resolver(GuardedNode):
         """
         self._hidden: list[Subscription] = []
         super().__init__(f'{wrist_name}_resolver', **node_options)
-        wanted = specs(wrist_name)
-        self._values = completed(declare(self, wanted))
+        self._values = completed(self.declare(specs(wrist_name)))
         self._started = dict(self._values)
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
@@ -81,7 +79,7 @@ class Resolver(GuardedNode):
         )
         self._announcer = Announcer()
         self._broken = False
-        watch(self, wanted, self._check, self._apply)
+        self.watch(self._check, self._apply)
         self._diagnostics = Diagnostics(self, self._health)
         self._wrong_types = WrongTypes(self, TYPES)
         self._step_clock = StepClock(self, self._supervisor, self._step)
@@ -180,12 +178,12 @@ class Resolver(GuardedNode):
             self._outputs.settle()
 
     def _check(self, changed: dict[str, Any]) -> None:
-        check_ceilings(self._supervisor.wrist, self._started, changed)
-        values = {**self._values, **changed}
+        values = completed({**self._values, **changed})
+        check_ceilings(self._supervisor.wrist, self._started, {n: values[n] for n in changed})
         settings(limited(self._supervisor.wrist, values), values)
 
     def _apply(self, changed: dict[str, Any]) -> None:
-        self._values.update(changed)
+        self._values.update(completed({**self._values, **changed}))
         self._supervisor.wrist = limited(self._supervisor.wrist, self._values)
         self._supervisor.settings = settings(self._supervisor.wrist, self._values)
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -54,6 +55,7 @@ class Inputs:
         self._supervisor, self._diagnostics = supervisor, diagnostics
         self._clock = clock
         self._warned_unstamped = False
+        self._linear_until = -math.inf
         self._sources = Sources()
         self._orders = {'cmd_vel': StampOrder(), 'cmd_vel_unstamped': StampOrder()}
         self._publishers = Publishers(node)
@@ -80,10 +82,16 @@ class Inputs:
         return self._deadman.withheld(now, self._values['command_timeout'])
 
     def with_refused(self, sentence: str) -> str:
-        """Return a sentence that also says whose commands are refused while another leads."""
-        topics = self._sources.refused(self._clock.receipt_time())
-        if not topics:
-            return sentence
+        """Return a sentence that also says what of the commands is not followed, and why."""
+        now = self._clock.receipt_time()
+        parts = [sentence.removesuffix('.')]
+        if topics := self._sources.refused(now):
+            parts.append(self._refusal(topics))
+        if now < self._linear_until:
+            parts.append('the linear part of the command is left out, for this wrist only turns')
+        return '; '.join(parts) + '.' if parts[1:] else sentence
+
+    def _refusal(self, topics: Sequence[str]) -> str:
         leading = self._sources.leading
         leader = f'{self._publishers.named(leading)} on {leading}'
         if leading in topics:
@@ -91,7 +99,7 @@ class Inputs:
         else:
             others = ' and '.join(f'{self._publishers.named(t)} on {t}' for t in topics)
             refused = f'commands of {others} are refused while {leader} leads'
-        return f'{sentence.removesuffix(".")}; {refused}: end all but one.'
+        return f'{refused}: end all but one'
 
     def _listen(
         self, kind: Any, topic: str, heard: Callable[[Any, Origin], None], qos: Any
@@ -132,6 +140,8 @@ class Inputs:
             self._diagnostics.refuse(origin.topic, error)
         else:
             self._supervisor.take_command(command)
+            if self._supervisor.wrist.twist_size == 3 and any(command.twist[:3]):
+                self._linear_until = now + timeout
             self._clock.timing.hear('command', command.receipt, command.stamp)
 
     def _on_deadman(self, deadman: Deadman, message: Bool, origin: Origin) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.period import SupervisorSettings
-from wrist_control.ros.parameters import Spec
+from wrist_control.ros.parameters import FRAME, Spec
 from wrist_control.wrists import Wrist, wrist_class
 from wrist_control.wrists.joint import broadcast_to_joints
 
@@ -135,8 +135,8 @@ def specs(wrist_name: str) -> list[Spec]:
             live=True,
         ),
         Spec('tracking_time', 0.25, 'How long it may be, then FAULT', 's', 0.0, 10.0, live=True),
-        Spec('forearm_frame', 'forearm', 'Name of the frame that the wrist stands on'),
-        Spec('hand_frame', 'hand', 'Name of the frame that turns'),
+        Spec('forearm_frame', 'forearm', 'Name of the frame that the wrist stands on', FRAME),
+        Spec('hand_frame', 'hand', 'Name of the frame that turns', FRAME),
         Spec(
             'require_deadman',
             False,

@@ -24,7 +24,7 @@ from wrist_control.resolving.platform_observer import (
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, WARN, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
-from wrist_control.ros.parameters import Spec, declare
+from wrist_control.ros.parameters import FRAME, Spec
 from wrist_control.ros.qos import NEWEST, OUTPUT
 from wrist_control.ros.running import run
 from wrist_control.ros.wrong_types import WrongTypes
@@ -53,8 +53,8 @@ SPECS = [
         0.001,
         3600.0,
     ),
-    Spec('base_frame', 'forearm', 'Name of the frame that platform_pose is given in'),
-    Spec('platform_frame', 'hand', 'Name of the frame that platform_twist is given in'),
+    Spec('base_frame', 'forearm', 'Name of the frame that platform_pose is given in', FRAME),
+    Spec('platform_frame', 'hand', 'Name of the frame that platform_twist is given in', FRAME),
     Spec('joint_prefix', '', 'Put before every joint name'),
 ]
 # In place of a bound that is not known: nothing that is not finite leaves a node.
@@ -80,7 +80,7 @@ class StewartForwardKinematics(GuardedNode):
             WristError: A parameter cannot be used; the sentence says why.
         """
         super().__init__('stewart_forward_kinematics', **node_options)
-        self._values = values = declare(self, SPECS)
+        self._values = values = self.declare(SPECS)
         self._wrist = self._platform()
         self._observer = Observer(
             self._wrist,

@@ -9,11 +9,11 @@ from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
-from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
 
 from wrist_control.errors import RefusedError
+from wrist_control.ros.parameters import ParameterNode
 from wrist_control.ros.shown import shown
 
 # A message of a thousand joints has about half of this; to unpack a larger one takes too long.
@@ -21,7 +21,7 @@ MOST_BYTES = 256 * 1024
 KEPT = 'use_sim_time cannot change while a node runs: start it again with the other value.'
 
 
-class GuardedNode(Node):
+class GuardedNode(ParameterNode):
     """What every node of this package is.
 
     An exception that nobody expected ends no callback's node: it is logged once, shown in

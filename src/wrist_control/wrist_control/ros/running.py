@@ -15,6 +15,7 @@ import time
 import traceback
 from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import rclpy
@@ -24,44 +25,73 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
 from wrist_control.errors import WristError
+from wrist_control.ros import usage
+from wrist_control.ros.command_line import silent_files, what_is_wrong
 from wrist_control.ros.guarded import GuardedNode
 
 # The events executor of this release spins at full load when it waits without a limit.
 LONGEST_WAIT = 3600.0
 # An executor that raises so often, each time within so many s, will not work again.
 MOST_BREAKS, SOON = 10, 1.0
+# How long a node that cannot start looks for somebody on /rosout, and lets the words go out, s.
+LISTENERS_WITHIN, LAST_WORDS = 0.5, 0.1
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 def run(make_node: Callable[[], GuardedNode]) -> int:
-    """Make a node and spin it to its end.
+    """Make a node and spin it to its end; or print what there is to know of it, for `--help`.
 
     Args:
         make_node: Called once ROS is up.
 
     Returns:
         The exit code: 0 after an ordinary stop, 1 after an error that nobody expected, 2 when the
-        node refuses its parameters.
+        node refuses its parameters, or ROS the command line.
     """
+    if usage.is_wanted(sys.argv):
+        return usage.tell(make_node)
     told = _hear_signals()
-    rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+    except Exception as error:
+        print(f'Cannot start: {what_is_wrong(error)}', file=sys.stderr)
+        return 2
+    refused = ''
     try:
         _live(make_node(), told)
     except WristError as error:
-        print(f'Cannot start: {error}', file=sys.stderr)
-        return 2
+        refused = f'Cannot start: {error}'
     except Exception:
         traceback.print_exc()
         return 1
+    else:
+        return 0
     finally:
-        rclpy.try_shutdown()
-    return 0
+        if not refused:
+            rclpy.try_shutdown()
+    _tell_refused(refused)
+    return 2
+
+
+def _tell_refused(sentence: str) -> None:
+    """Log why a node cannot start, so that whoever listens to /rosout hears it."""
+    gc.collect()  # the node that could not start, whose name would be taken
+    node = rclpy.create_node(Path(sys.argv[0]).name)
+    end = time.monotonic() + LISTENERS_WITHIN
+    while not node.count_subscribers('/rosout') and time.monotonic() < end:
+        time.sleep(0.01)
+    node.get_logger().fatal(sentence)
+    if node.count_subscribers('/rosout'):
+        time.sleep(LAST_WORDS)
+    rclpy.try_shutdown()
 
 
 def _live(node: GuardedNode, told: socket.socket) -> None:
     ended: Future = Future()
     executor = make_executor(node)
     executor.add_node(node)
+    for sentence in silent_files(sys.argv, node.get_fully_qualified_name()):
+        node.get_logger().warning(sentence)
     executor.create_task(lambda: node.get_logger().info('Ready; Ctrl-C ends it.'))
     gc.collect()
     gc.freeze()  # what lives now lives to the end: it need not be looked at again
