@@ -11,6 +11,7 @@ from wrist_control import WRISTS, WristError
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_interfaces.msg import WristStatus
 
 OWN = {'use_sim_time', 'start_type_description_service'}  # rclpy's
@@ -39,6 +40,9 @@ def test_every_other_parameter_says_what_it_is_and_what_is_valid(graph, kind):
     ('parameters', 'sentence'),
     [
         ({'rate': 0.0}, r'rate is 0.0; valid is 1 to 2000 Hz'),
+        ({'rate': []}, r'rate is \[\]; valid is 1 to 2000 Hz'),
+        ({'joint_rate_limits': '[]'}, r'joint_rate_limits is \[\]; valid is a list'),
+        ({'joint_rate_limits': '[1.0, x]'}, r"joint_rate_limits is 'x'; valid is a list"),
         ({'rate': 'fast'}, r"rate is 'fast'; valid is 1 to 2000 Hz"),
         ({'command_timeout': math.nan}, r'command_timeout is nan; valid is 0.01 to 10 s'),
         ({'joint_rate_limits': [1.0, 2.0]}, r'joint_rate_limits has 2 values; give 1 for all'),
@@ -87,6 +91,24 @@ def test_every_wrist_refuses_a_bad_dimension_or_start(graph, wrist, parameters, 
 def test_an_operator_refuses_to_start_with_a_bad_value(graph, parameters, sentence):
     with pytest.raises(WristError, match=sentence):
         graph.start(Operator, **parameters)
+
+
+@pytest.mark.parametrize('kind', [JointSimulator, StewartForwardKinematics])
+def test_a_list_may_be_empty_only_where_that_is_the_default(graph, kind):
+    node = graph.start(kind)
+    lists = {
+        name: parameter.value
+        for name, parameter in node.get_parameters_by_prefix('').items()
+        if hasattr(parameter.value, '__len__') and not isinstance(parameter.value, str)
+    }
+    graph.end(node)
+    assert {bool(len(value)) for value in lists.values()} == {True, False}
+    for name, value in lists.items():
+        if len(value):
+            with pytest.raises(WristError, match=rf'{name} is \[\]; valid is a list'):
+                graph.start(kind, **{name: []})
+        else:
+            graph.end(graph.start(kind, **{name: []}))
 
 
 def test_whole_numbers_and_single_values_are_as_good_as_decimals_and_lists(graph):

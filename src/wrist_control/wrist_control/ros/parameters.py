@@ -107,7 +107,7 @@ class ParameterNode(Node):
         """
         given = {name: one.value for name, one in self.get_parameters_by_prefix('').items()}
         specs = [self._of_this_namespace(spec) for spec in specs]
-        values = {spec.name: checked(spec, given.get(spec.name)) for spec in specs}
+        values = {spec.name: checked(spec, given.get(spec.name, spec.default)) for spec in specs}
         for name in set(given) - set(OF_RCLPY):
             self.undeclare_parameter(name)
         for spec in specs:
@@ -188,18 +188,20 @@ class ParameterNode(Node):
 
 
 def checked(spec: Spec, value: object) -> Any:
-    """Return a value in the parameter's own type; the default where there is none.
+    """Return a value in the parameter's own type.
 
     Raises:
         InvalidValueError: It is of the wrong type or out of range.
     """
     if value is None:
-        return spec.default
+        value = []  # as an empty list of a file comes
     if not isinstance(spec.default, list):
         return _item(spec, value)
     if isinstance(value, str) and value.startswith('[') and spec.kind is not str:
-        value = value.strip('[]').split(',')
+        value = [item.strip() for item in value.strip('[] ').split(',') if item.strip()]
     values = list(value) if isinstance(value, (list, tuple, array.array)) else [value]
+    if not values and spec.default:
+        raise InvalidValueError(_wrong(spec, values))
     return [_item(spec, item) for item in values]
 
 
