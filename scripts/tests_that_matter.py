@@ -22,6 +22,7 @@ FURTHER = {
 # The modules under nodes/ that have no tests by their own name.
 PARTS_OF = {
     'nodes/resolver_clock.py': 'nodes.resolver',
+    'nodes/resolver_inputs.py': 'nodes.resolver',
     'nodes/resolver_outputs.py': 'nodes.resolver',
     'nodes/resolver_settings.py': 'nodes.resolver',
     'resolving/platform_observer.py': 'nodes.stewart_forward_kinematics',

@@ -21,5 +21,6 @@ def test_every_module_has_tests_that_matter_and_all_of_them_are_there():
     for folder in mutants.FOLDERS:
         for path in (mutants.PACKAGE / folder).glob('*.py'):
             tests = mutants.tests_of(f'{folder}/{path.name}')
-            assert tests
+            # One that a change of names has lost would be left with what all are tested by.
+            assert len(tests) > 1 or path.name == '__init__.py', path.name
             assert [test for test in tests if not Path(test).is_file()] == []
