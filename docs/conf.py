@@ -22,7 +22,7 @@ html_theme = 'furo'
 html_static_path = ['_static']
 html_css_files = ['site.css']
 html_math_renderer = 'mathml'
-# A page is read where it is built: no source beside it, and no link to who made the tools.
+# A page is read where it was built, beside its source.
 html_copy_source = False
 html_show_sphinx = False
 html_show_copyright = False
