@@ -18,7 +18,7 @@ FUNCTIONS = {'cos', 'sin', 'tan', 'log', 'exp', 'det', 'sgn', 'diag', 'tr', 'ata
 DOT, PRIME, MINUS = '\u02d9', '\u2032', '\u2212'
 ROWS = {'math', 'mrow', 'mtd', 'mstyle'}
 # Operators whose spaces of their own are too wide for what they do here.
-SPACES = {'|': '0', 'min': '0.167em', 'max': '0.167em'}
+SPACES = {'|': '0', 'min': '0.167em', 'max': '0.167em', 'det': '0.1em'}
 CLOSING = {')', ']', '|', '\u2016', PRIME}
 # TeX that GitHub knows and the converter does not.
 PLAINER = ((r'\\tag\{(.*?)\}', r'\\qquad\\text{(\1)}'), (r'\\operatorname\{', r'\\text{'))
