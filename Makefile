@@ -61,7 +61,7 @@ dexterity: setup  ## map where each wrist can turn the hand well
 docs: setup  ## write docs/wrists.md from the code, and build the site in out/site
 	@./env python3 scripts/wrist_table.py
 	@./env python3 -m sphinx -q -E -W --keep-going -n docs out/site
-	@echo "open out/site/index.html"
+	@echo 'built: out/site/index.html'
 
 .PHONY: clean
 clean:  ## remove everything that setup made; figures in out/ stay
