@@ -58,8 +58,10 @@ dexterity: setup  ## map where each wrist can turn the hand well
 	@./env python3 -m wrist_control.studies.dexterity_maps
 
 .PHONY: docs
-docs: setup  ## write what docs/ takes from the code: docs/wrists.md
+docs: setup  ## write docs/wrists.md from the code, and build the site in out/site
 	@./env python3 scripts/wrist_table.py
+	@./env python3 -m sphinx -q -E -W --keep-going -n docs out/site
+	@echo 'built: out/site/index.html'
 
 .PHONY: clean
 clean:  ## remove everything that setup made; figures in out/ stay

@@ -1,10 +1,11 @@
 """The documents are true: what they show runs, what they list exists, and nothing is left out."""
 
 import re
+import shlex
 import signal
 import subprocess
 import sys
-from pathlib import Path
+from importlib.util import find_spec
 
 import pytest
 
@@ -13,28 +14,55 @@ from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.resolver_settings import specs
 from wrist_control.wrists import WRISTS
 
-ROOT = Path(__file__).resolve().parents[1]
-README = (ROOT / 'README.md').read_text()
+from .documents import DOCUMENTS, FIRST_STEPS, ROOT, blocks, without_blocks
+
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
 PARAMETERS = INTERFACES + (ROOT / 'docs' / 'wrists.md').read_text()
 
 
-def blocks(language):
-    return re.findall(rf'```{language}\n(.*?)```', README, re.DOTALL)
+LANGUAGES = {'sh', 'python', 'text', 'yaml', 'math', '{toctree}', '{eval-rst}'}
+# A whole file of settings, under its name.
+FILE = re.compile(r'`([\w/]+\.yaml)`:\n\n```yaml\n(.*?)```', re.DOTALL)
 
 
-COMMANDS = [line for block in blocks('sh') for line in block.splitlines()]
-DOCUMENTS = [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('**/*.md'))]
-NODES = [line for line in COMMANDS if '--ros-args' in line]
-PROGRAMS = [line for line in COMMANDS if line.startswith('./env') and line not in NODES]
+def commands(*documents):
+    """Return every command that is run, with the document that it stands in."""
+    return [
+        pytest.param(line, document, id=f'{document.stem}: {line}')
+        for document in documents
+        for _, block in blocks(document, 'sh')
+        for line in block.splitlines()
+    ]
 
 
-@pytest.mark.parametrize('command', NODES)
-def test_every_node_in_the_readme_starts_and_ends_cleanly(
-    process_environment, until_ready, command
+# What the first steps show is run by a test of their own.
+COMMANDS = commands(*(document for document in DOCUMENTS if document != FIRST_STEPS))
+NODES = [one for one in COMMANDS if '--ros-args' in one.values[0]]
+PROGRAMS = [one for one in COMMANDS if one.values[0].startswith('./env') and one not in NODES]
+SNIPPETS = [block for document in DOCUMENTS for _, block in blocks(document, 'python')]
+TARGETS = re.findall(r'^(\w+):', (ROOT / 'Makefile').read_text(), re.MULTILINE)
+HEADINGS = re.compile(r'^#+ (.*)$', re.MULTILINE)
+
+
+def words(command, document, folder):
+    """Return a command in words; a file of settings that its document shows is written first."""
+    for name, content in FILE.findall(document.read_text()):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(content)
+        command = command.replace(f' {name}', f' {folder / name}')
+    return shlex.split(command)
+
+
+@pytest.mark.parametrize(('command', 'document'), NODES)
+def test_every_node_in_the_documents_starts_and_ends_cleanly(
+    process_environment, until_ready, tmp_path, command, document
 ):
     process = subprocess.Popen(
-        command.split(), cwd=ROOT, env=process_environment, stderr=subprocess.PIPE, text=True
+        words(command, document, tmp_path),
+        cwd=ROOT,
+        env=process_environment,
+        stderr=subprocess.PIPE,
+        text=True,
     )
     until_ready(process)
     process.send_signal(signal.SIGTERM)
@@ -42,28 +70,63 @@ def test_every_node_in_the_readme_starts_and_ends_cleanly(
     assert process.returncode == 0, said
 
 
-@pytest.mark.parametrize('command', PROGRAMS)
-def test_every_program_in_the_readme_runs(process_environment, command):
-    subprocess.run(command.split(), cwd=ROOT, env=process_environment, check=True, timeout=60.0)
+@pytest.mark.parametrize(('command', 'document'), PROGRAMS)
+def test_every_program_in_the_documents_runs(process_environment, tmp_path, command, document):
+    subprocess.run(
+        words(command, document, tmp_path),
+        cwd=ROOT,
+        env=process_environment,
+        check=True,
+        timeout=60.0,
+    )
 
 
-@pytest.mark.parametrize('snippet', blocks('python'))
-def test_every_snippet_in_the_readme_runs(snippet):
+@pytest.mark.parametrize('snippet', SNIPPETS, ids=range(len(SNIPPETS)))
+def test_every_snippet_in_the_documents_runs(snippet):
     subprocess.run([sys.executable, '-c', snippet], check=True, timeout=60.0)
 
 
 def test_the_readme_starts_with_the_two_commands():
-    assert [line.split('#')[0].strip() for line in COMMANDS[:2]] == ['make demo', 'make test']
+    first = [command.values[0] for command in COMMANDS[:2]]
+    assert [line.split('#')[0].strip() for line in first] == ['make demo', 'make test']
 
 
-@pytest.mark.parametrize(
-    'document',
-    [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('**/*.md'))],
-    ids=lambda p: p.name,
-)
+def test_every_command_is_run_or_is_a_target_of_make():
+    others = [one.values[0] for one in COMMANDS if one not in (*NODES, *PROGRAMS)]
+    others += [line for _, block in blocks(FIRST_STEPS, 'sh') for line in block.splitlines()]
+    assert {line.split()[0] for line in others} <= {'make', './env'}
+
+
+@pytest.mark.parametrize('document', DOCUMENTS, ids=lambda p: p.stem)
+def test_every_block_says_whether_it_is_run(document):
+    """Only the first steps show output: their test compares it."""
+    allowed = LANGUAGES | ({'output'} if document == FIRST_STEPS else set())
+    assert {language for language, _ in blocks(document)} <= allowed
+
+
+@pytest.mark.parametrize('document', DOCUMENTS, ids=lambda p: p.stem)
+def test_every_target_and_module_that_a_document_names_is_there(document):
+    spans = re.findall(r'`([^`\n]+)`', without_blocks(document))
+    spans += [line for _, block in blocks(document, 'sh') for line in block.splitlines()]
+    targets = {span.split()[1] for span in spans if re.match(r'make \w', span)}
+    assert targets <= set(TARGETS)
+    modules = {found[1] for span in spans if (found := re.search(r'python3? -m (\S+)', span))}
+    assert {module for module in modules if find_spec(module) is None} == set()
+
+
+def anchors(document):
+    """Return the anchors of a document's headings, as GitHub makes them."""
+    headings = HEADINGS.findall(without_blocks(document))
+    return {re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-') for heading in headings}
+
+
+@pytest.mark.parametrize('document', DOCUMENTS, ids=lambda p: p.stem)
 def test_every_link_and_picture_of_a_document_is_there(document):
-    for target in re.findall(r'\]\(([^)#\s]+)\)', document.read_text()):
-        assert (document.parent / target).exists(), target
+    for target in re.findall(r'\]\(([^)\s]+)\)', without_blocks(document)):
+        path, _, anchor = target.partition('#')
+        linked = document.parent / path if path else document
+        assert linked.exists(), target
+        assert not anchor or anchor in anchors(linked), target
 
 
 @pytest.mark.parametrize('wrist', WRISTS)
