@@ -14,6 +14,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 DRAWN_EVERY = 0.2  # s, on a terminal
@@ -129,7 +130,10 @@ def stop(process: subprocess.Popen[bytes]) -> None:
     """End a process that still runs, and all that it has started: first asking, then not."""
     if process.poll() is not None:
         return
-    os.killpg(process.pid, signal.SIGINT)
-    if not ended(process, TIME_TO_END):
-        os.killpg(process.pid, signal.SIGKILL)
+    try:
+        os.killpg(process.pid, signal.SIGINT)
+        ended(process, TIME_TO_END)
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
         process.wait()

@@ -218,7 +218,10 @@ def check_names(extras: Iterable[str]) -> None:
 
 def main(extras: Sequence[str]) -> int:
     """Set the workspace up; every foreseeable failure is one sentence and a non-zero exit."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that children end as well
+    # All end alike, and what was started ends as well; nohup's wish is heeded.
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler)
     try:
         check_names(extras)
         with alone():
