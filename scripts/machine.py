@@ -241,9 +241,9 @@ def pip_sentence(log: Path) -> str:
     if 'DO NOT MATCH THE HASHES' in output:
         others = ', '.join(re.findall(r'^ {4}([\w.-]+==[\w.]+)', output, re.MULTILINE))
         return (
-            f'what was downloaded as {others or "one of the packages"} is not what was reviewed, '
-            'for its hash is not in the requirements file: nothing was installed. If you trust '
-            f"the package index you use, look at who changed the file (pip's output: {log})."
+            f'what was downloaded as {others or "one of the packages"} is not what was reviewed: '
+            'its hash is not in the requirements file, so it was not installed. Find out who '
+            f"changed it, there or on the way, before you go on (pip's output: {log})."
         )
     if any(sign in output for sign in NOT_DOWNLOADED):
         return (

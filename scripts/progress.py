@@ -34,7 +34,7 @@ def packages(pins: str) -> Callable[[str], str]:
     def state(output: str) -> str:
         # Some pins are for other versions of Python.
         total = pinned - len(re.findall(r'^Ignoring ', output, re.MULTILINE))
-        there = re.findall(r'^(?:Collecting|Requirement already) ', output, re.MULTILINE)
+        there = re.findall(r'^(?:Collecting|Processing|Requirement) ', output, re.MULTILINE)
         if '\nInstalling collected packages' in output:
             return f'unpacking {total} packages'
         return f'{len(there)} of {total} packages'
@@ -53,6 +53,7 @@ class Progress:
 
     def __init__(self, title: str) -> None:
         self._title = title
+        self._line = ''
         self._is_drawn = sys.stdout.isatty()
         self._began = self._told = time.monotonic()
         if self._is_drawn:
@@ -65,8 +66,11 @@ class Progress:
         now = time.monotonic()
         far = ', '.join(filter(None, (state, f'{now - self._began:.0f} s')))
         if self._is_drawn:
-            line = f'setup: {self._title}, {far}'
-            print(f'\r{line[: shutil.get_terminal_size().columns - 1]}\033[K', end='', flush=True)
+            width = shutil.get_terminal_size().columns or 80  # some terminals do not know theirs
+            line = f'setup: {self._title}, {far}'[: width - 1]
+            if line != self._line:
+                self._line = line
+                print(f'\r{line}\033[K', end='', flush=True)
         elif now - self._told >= TOLD_EVERY:
             self._told = now
             say(f'  {far}')
