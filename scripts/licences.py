@@ -1,19 +1,21 @@
 """Write docs/licences.md: every distribution that setup may install, with its licence.
 
-Licences are read from what is installed, so run this where every name that is pinned is there:
-with Python 3.10 and every extra.  Another file to write may be named as the argument.
+Licences are read from what is installed, so run this with every extra.  Some distributions are
+for some versions of Python only: what is not installed here keeps what the document said of it.
 """
 
 from __future__ import annotations
 
 import re
 import sys
+from contextlib import suppress
 from importlib import metadata
 from pathlib import Path
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parent.parent
 DOCUMENT = ROOT / 'docs' / 'licences.md'
+ROW = re.compile(r'^\| (\S+) \| .* \| (.*) \|$', re.MULTILINE)
 PIN = re.compile(r'^(\S+)==(\S+)', re.MULTILINE)
 COPYLEFT = re.compile(r'GPL|MPL|Mozilla|EPL|EUPL')
 # Where no metadata say it, only the text of the licence does.
@@ -39,7 +41,7 @@ runtime of GCC (GPL with the runtime exception, and LGPL), Fast DDS OpenSSL 1.1.
 def pinned() -> dict[str, list[str]]:
     """Return the versions of every distribution that a requirements file pins."""
     versions: dict[str, list[str]] = {}
-    for file in ROOT.glob('requirements*.txt'):
+    for file in sorted(ROOT.glob('requirements*.txt')):
         for name, version in PIN.findall(file.read_text()):
             if version not in versions.setdefault(name, []):
                 versions[name].append(version)
@@ -64,16 +66,22 @@ def ros_licence(name: str) -> str:
     return ', '.join(one.text or '' for one in ElementTree.parse(file).iter('license'))
 
 
-def main(document: Path) -> None:
-    """Write the document."""
+def main() -> int:
+    """Write the document, and tell by the exit code whether every licence is known."""
     versions = pinned()
-    licences = {name: licence(name) for name in sorted(versions)}
-    copyleft = [name for name, said in licences.items() if COPYLEFT.search(said)]
-    rows = [
-        f'| {name} | {", ".join(versions[name])} | {said} |\n' for name, said in licences.items()
-    ]
-    document.write_text(HEAD.format(copyleft=', '.join(copyleft)) + ''.join(rows))
+    licences = dict(ROW.findall(DOCUMENT.read_text())) if DOCUMENT.exists() else {}
+    for name in versions:
+        with suppress(metadata.PackageNotFoundError):
+            licences[name] = licence(name)
+    known = sorted(versions.keys() & licences.keys())
+    copyleft = [name for name in known if COPYLEFT.search(licences[name])]
+    rows = [f'| {name} | {", ".join(versions[name])} | {licences[name]} |\n' for name in known]
+    DOCUMENT.write_text(HEAD.format(copyleft=', '.join(copyleft)) + ''.join(rows))
+    unknown = sorted(versions.keys() - licences.keys())
+    if unknown:
+        print(f'licences: not installed here: {", ".join(unknown)}; use another Python for these')
+    return bool(unknown)
 
 
 if __name__ == '__main__':
-    main(Path(sys.argv[1]) if sys.argv[1:] else DOCUMENT)
+    sys.exit(main())

@@ -1,5 +1,6 @@
 """Setup in every circumstance that was thought of: a sentence, an exit code, never a traceback."""
 
+import shutil
 import signal
 
 import pytest
@@ -77,6 +78,26 @@ def test_a_changed_base_makes_everything_again(machine):
     machine.set_up('test')
     assert installed(machine)[3:] == installed(machine)[:3]
     assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (2, 4)
+
+
+def test_a_venv_that_was_removed_comes_back_with_its_extras(machine):
+    machine.set_up('test')
+    shutil.rmtree(machine.checkout / '.venv')
+    machine.set_up('test')
+    assert installed(machine)[3:] == installed(machine)[:3]
+
+
+def test_half_of_a_change_that_is_taken_back_is_not_taken_for_the_whole(machine):
+    machine.set_up('test')
+    requirements = machine.checkout / 'requirements-test.txt'
+    before = requirements.read_text()
+    requirements.write_text(f'{before}# changed\n')
+    machine.fake('pip', failing(UNREACHABLE))
+    machine.set_up('test')
+    requirements.write_text(before)
+    machine.mend('pip')
+    machine.set_up('test')
+    assert installed(machine)[4:] == ['requirements-test.txt']
 
 
 def test_an_extra_that_is_none_is_refused(machine):
