@@ -19,6 +19,7 @@ from pathlib import Path
 
 DRAWN_EVERY = 0.2  # s, on a terminal
 TOLD_EVERY = 15.0  # s, elsewhere
+INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 TIME_TO_END = 5.0  # s, for a command that is interrupted
 
 
@@ -103,6 +104,8 @@ def run(
     log.parent.mkdir(exist_ok=True)
     progress = Progress(title)
     with log.open('w') as output:
+        # What interrupts setup waits until there is a process to stop.
+        signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTIONS)
         # In a group of its own, so that what it has started ends with it.
         process = subprocess.Popen(
             command,
@@ -111,14 +114,21 @@ def run(
             stdout=output,
             stderr=output,
             start_new_session=True,
+            preexec_fn=let_interrupt,
         )
     try:
+        let_interrupt()
         while not ended(process, DRAWN_EVERY):
             progress.show(state(log.read_text(errors='replace')))
     finally:
-        progress.end()
         stop(process)
+        progress.end()
     return process.returncode == 0
+
+
+def let_interrupt() -> None:
+    """Let signals interrupt this process."""
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, INTERRUPTIONS)
 
 
 def ended(process: subprocess.Popen[bytes], within: float) -> bool:

@@ -219,7 +219,7 @@ def check_names(extras: Iterable[str]) -> None:
 def main(extras: Sequence[str]) -> int:
     """Set the workspace up; every foreseeable failure is one sentence and a non-zero exit."""
     # All end alike, and what was started ends as well; nohup's wish is heeded.
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    for number in progress.INTERRUPTIONS:
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, signal.default_int_handler)
     try:

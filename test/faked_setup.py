@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -92,8 +93,7 @@ class Machine:
 
     def calls(self, name: str) -> list[str]:
         """Return how a command has been called until now."""
-        said = self._calls.read_text().splitlines() if self._calls.exists() else []
-        return [line for line in said if line.split()[0] == name]
+        return [line for line in content(self._calls).splitlines() if line.split()[0] == name]
 
     def start(self, *extras: str, **variables: str) -> subprocess.Popen[str]:
         """Start the setup."""
@@ -120,12 +120,17 @@ def said(process: subprocess.Popen[str]) -> tuple[int, str]:
     return process.returncode, sentences
 
 
-def until(file: Path) -> None:
-    """Wait until a file is there, with something in it."""
+def until(condition: Callable[[], object]) -> None:
+    """Wait until something is true."""
     end = time.monotonic() + SOON
-    while not (file.exists() and file.read_text()):
-        assert time.monotonic() < end, f'{file} is not there'
+    while not condition():
+        assert time.monotonic() < end, f'not within {SOON} s'
         time.sleep(0.02)
+
+
+def content(file: Path) -> str:
+    """Return what is in a file that may not be there yet."""
+    return file.read_text() if file.exists() else ''
 
 
 def is_alive(pid: int) -> bool:

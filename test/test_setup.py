@@ -5,7 +5,7 @@ import signal
 
 import pytest
 
-from .faked_setup import Machine, is_alive, said, until
+from .faked_setup import Machine, content, is_alive, said, until
 
 # What pip says, shortened.
 UNREACHABLE = "Retrying after connection broken by 'NewConnectionError: Network is unreachable'"
@@ -164,8 +164,9 @@ def test_a_named_python_that_is_not_there(machine):
         ('ERROR: it rains', 'says "ERROR: it rains"'),
         ('', 'says "nothing about why"'),
     ],
+    ids=['no network', 'another hash', 'a full disk', 'another error', 'silence'],
 )
-@pytest.mark.parametrize('extra', [(), ('test',)])
+@pytest.mark.parametrize('extra', [(), ('test',)], ids=['base', 'extra'])
 def test_what_pip_could_not_do_is_said_and_heals(machine, output, sentence, extra):
     if extra:
         machine.set_up()
@@ -223,12 +224,12 @@ def test_interrupted_it_ends_with_all_that_it_started_and_heals(machine, number,
     # A child in the background of a shell hears no SIGINT.
     machine.fake(command, f'sleep 60 &\necho $! > {pid}\nwait')
     process = machine.start()
-    until(pid)
+    until(lambda: content(pid))
     process.send_signal(number)
     code, sentences = said(process)
     assert code == 130
     assert 'setup: interrupted; run the same command again' in sentences
-    assert not is_alive(int(pid.read_text()))
+    until(lambda: not is_alive(int(content(pid))))
     machine.mend(command)
     assert machine.set_up()[0] == 0
     assert machine.set_up() == (0, '')
@@ -238,7 +239,7 @@ def test_two_setups_at_once_do_the_work_once(machine):
     begun, go = machine.checkout / 'begun', machine.checkout / 'go'
     machine.fake('pip', f'echo 1 > {begun}\nwhile [ ! -e {go} ]; do sleep 0.02; done')
     first = machine.start()
-    until(begun)
+    until(begun.exists)
     second = machine.start()
     waiting = 'setup: another setup is running here; waiting for it to end\n'
     assert second.stdout.readline() == waiting
