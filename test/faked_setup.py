@@ -23,10 +23,13 @@ case "$1 $2" in
 esac
 shift
 exec {real} -I -S -c '
-import os, platform, runpy, sys
+import importlib.machinery, os, platform, runpy, sys, types
 sys.executable = "{here}/python3"
 sys.path.insert(0, "scripts")
 sys.modules.update(dict.fromkeys(os.environ["ABSENT"].split()))
+for name in os.environ["PRESENT"].split():
+    sys.modules[name] = types.ModuleType(name)
+    sys.modules[name].__spec__ = importlib.machinery.ModuleSpec(name, None)
 platform.machine = lambda: "x86_64"
 runpy.run_path("scripts/setup_workspace.py", run_name="__main__")
 ' "$@"
@@ -51,6 +54,7 @@ class Machine:
     def __init__(self, folder: Path, checkout: str = 'checkout') -> None:
         self.checkout = folder / checkout
         self.absent = ''  # modules that its Python lacks
+        self.present = ''  # and those that it has, beside its own
         self._fakes = folder / 'bin'
         self._calls = folder / 'calls'
         self._copy()
@@ -99,13 +103,16 @@ class Machine:
         """Start the setup."""
         return subprocess.Popen(
             [self.checkout / 'scripts' / 'setup', *extras],
-            env={'PATH': str(self._fakes), 'ABSENT': self.absent, **variables},
+            env={**self._variables(), **variables},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
             # Whoever runs the tests in the background has them ignore it.
             preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         )
+
+    def _variables(self) -> dict[str, str]:
+        return {'PATH': str(self._fakes), 'ABSENT': self.absent, 'PRESENT': self.present}
 
     def set_up(self, *extras: str, **variables: str) -> tuple[int, str]:
         """Set up, and return the exit code and all that was said."""

@@ -5,6 +5,8 @@ import signal
 
 import pytest
 
+import machine as wanted
+
 from .faked_setup import Machine, content, is_alive, said, until
 
 # What pip says, shortened.
@@ -106,6 +108,35 @@ def test_an_extra_that_is_none_is_refused(machine):
     assert "there is no extra 'tset': choose from " in sentences
     assert 'docs' in sentences
     assert 'build' not in sentences
+
+
+@pytest.fixture
+def sourced(machine, tmp_path):
+    """A shell in which ROS is sourced, on a machine that has what the base needs."""
+    for package in wanted.APT_OF_ROS_PACKAGE:
+        share = tmp_path / 'ros' / 'share' / package
+        share.mkdir(parents=True)
+        (share / 'package.xml').touch()
+    machine.fake('cmake', '')
+    machine.present = ' '.join(wanted.APT_OF_MODULE)
+    return {'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': str(tmp_path / 'ros')}
+
+
+def test_where_ros_is_sourced_nothing_is_installed(machine, sourced):
+    machine.present += ' ' + ' '.join(wanted.APT_OF_EXTRA['test'])
+    code, sentences = machine.set_up('test', **sourced)
+    assert code == 0
+    assert 'building wrist_control' in sentences
+    assert machine.calls('venv') + machine.calls('pip') == []
+    assert machine.set_up('test', **sourced) == (0, '')
+
+
+def test_where_ros_is_sourced_what_an_extra_lacks_is_said(machine, sourced):
+    assert machine.set_up(**sourced)[0] == 0
+    code, sentences = machine.set_up('test', **sourced)
+    assert code == 1
+    assert 'ROS 2 jazzy is sourced, so nothing is installed, but ' in sentences
+    assert 'lacks hypothesis, pytest, pytest_timeout, scipy, xdist: run `sudo apt' in sentences
 
 
 def test_no_compiler(machine):
