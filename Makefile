@@ -14,19 +14,23 @@ help:  ## show this table
 setup:  ## install ROS 2 Jazzy and the tools into .venv, and build the packages
 	@scripts/setup
 
+# With what a requirements-<extra>.txt names as well.
+setup-%:
+	@scripts/setup $*
+
 .PHONY: test
-test: setup  ## check the code with ruff and mypy, then run every test
+test: setup-test setup-docs  ## check the code with ruff and mypy, then run every test
 	@lint=0; ./env python3 scripts/lint.py || lint=$$?; \
 	ROS_PYTHON_CHECK_FIELDS=1 ./env python3 -m pytest -n 2 || exit $$?; \
 	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
 	exit $$lint
 
 .PHONY: lint
-lint: setup  ## check the code with ruff and mypy
+lint: setup-test  ## check the code with ruff and mypy
 	@./env python3 scripts/lint.py
 
 .PHONY: format
-format: setup  ## lay the code out as lint expects it
+format: setup-test  ## lay the code out as lint expects it
 	@./env ruff check --fix . && ./env ruff format .
 
 .PHONY: demo
@@ -34,11 +38,11 @@ demo: setup  ## fly Barker's basic test maneuver, with figures in out/
 	@./env python3 -m wrist_control.demo
 
 .PHONY: bench
-bench: setup  ## measure how fast it is, as ratios within one run
+bench: setup-test  ## measure how fast it is, as ratios within one run
 	@for script in bench/bench_*.py; do ./env python3 "$$script" || exit $$?; done
 
 .PHONY: mutants
-mutants: setup  ## put small faults into the code and see that the tests find them
+mutants: setup-test  ## put small faults into the code and see that the tests find them
 	@./env python3 scripts/mutants.py
 
 .PHONY: hour
@@ -58,7 +62,7 @@ dexterity: setup  ## map where each wrist can turn the hand well
 	@./env python3 -m wrist_control.studies.dexterity_maps
 
 .PHONY: docs
-docs: setup  ## write docs/wrists.md from the code, and build the site in out/site
+docs: setup-docs  ## write docs/wrists.md from the code, and build the site in out/site
 	@./env python3 scripts/wrist_table.py
 	@./env python3 -m sphinx -q -E -W --keep-going -n docs out/site
 	@echo 'built: out/site/index.html'

@@ -21,10 +21,10 @@ CHECKS = {
 
 def pinned(tool: str) -> str:
     """Return the version of a tool that the code is written for."""
-    for line in (ROOT / 'requirements.txt').read_text().splitlines():
+    for line in (ROOT / 'requirements-test.txt').read_text().splitlines():
         if line.startswith(f'{tool}=='):
-            return line.split('==')[1]
-    raise LookupError(f'requirements.txt does not name {tool}')
+            return line.split()[0].split('==')[1]
+    raise LookupError(f'requirements-test.txt does not name {tool}')
 
 
 def installed(tool: str) -> str:

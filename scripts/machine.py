@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib.util
 import os
 import platform
+import re
 import shutil
 import sys
 import sysconfig
@@ -21,25 +22,37 @@ COMPILERS = {
     'C++': ('CXX', ('c++', 'g++', 'clang++')),
 }
 
+FROM_PIP = 'python3-pip'  # brings what can install a module that Ubuntu has no package of
+
 # Where ROS 2 is sourced nothing is installed; these Ubuntu packages bring what must be there.
 APT_OF_MODULE = {
     'PIL': 'python3-pil',
     'ament_index_python': 'ros-jazzy-ament-index-python',
     'diagnostic_msgs': 'ros-jazzy-common-interfaces',
     'geometry_msgs': 'ros-jazzy-common-interfaces',
-    'hypothesis': 'python3-hypothesis',
     'matplotlib': 'python3-matplotlib',
     'numpy': 'python3-numpy',
-    'pytest': 'python3-pytest',
-    'pytest_timeout': 'python3-pytest-timeout',
     'rclpy': 'ros-jazzy-rclpy',
     'rich': 'python3-rich',
-    'scipy': 'python3-scipy',
     'sensor_msgs': 'ros-jazzy-common-interfaces',
     'std_msgs': 'ros-jazzy-common-interfaces',
     'std_srvs': 'ros-jazzy-common-interfaces',
     'visualization_msgs': 'ros-jazzy-common-interfaces',
-    'xdist': 'python3-pytest-xdist',
+}
+APT_OF_EXTRA = {
+    'docs': {
+        'furo': 'furo',
+        'latex2mathml': FROM_PIP,
+        'myst_parser': 'python3-myst-parser',
+        'sphinx': 'python3-sphinx',
+    },
+    'test': {
+        'hypothesis': 'python3-hypothesis',
+        'pytest': 'python3-pytest',
+        'pytest_timeout': 'python3-pytest-timeout',
+        'scipy': 'python3-scipy',
+        'xdist': 'python3-pytest-xdist',
+    },
 }
 APT_OF_PROGRAM = {'cmake': 'cmake', 'colcon': 'python3-colcon-common-extensions'}
 APT_OF_ROS_PACKAGE = {
@@ -67,11 +80,11 @@ def has_module(name: str) -> bool:
     return importlib.util.find_spec(name) is not None
 
 
-def check(root: Path) -> None:
+def check(root: Path, extras: Iterable[str]) -> None:
     """Raise SetupError with a sentence for everything that is missing here."""
     checks: list[Callable[[], str | None]] = [lambda: path_problem(root)]
     if ros_is_sourced():
-        checks += [lambda: distro_problem() or ros_problem()]
+        checks += [lambda: distro_problem() or ros_problem(extras)]
     else:
         checks += [platform_problem, pip_problem]
     checks += [compiler_problem, header_problem]
@@ -157,7 +170,7 @@ def distro_problem() -> str | None:
     )
 
 
-def ros_problem() -> str | None:
+def ros_problem(extras: Iterable[str]) -> str | None:
     """A sourced ROS must have everything, since nothing is installed beside it."""
     prefixes = [Path(path) for path in os.environ.get('AMENT_PREFIX_PATH', '').split(':') if path]
     if not prefixes:
@@ -170,12 +183,16 @@ def ros_problem() -> str | None:
         **absent(APT_OF_ROS_PACKAGE, lambda name: is_ros_package(name, prefixes)),
         **absent(APT_OF_MODULE, has_module),
     }
+    for extra in extras:
+        missing |= absent(APT_OF_EXTRA.get(extra, {}), has_module)
     if not missing:
         return None
     packages = ' '.join(sorted(set(missing.values())))
+    unpackaged = ', '.join(name for name, apt in missing.items() if apt == FROM_PIP)
     return (
         f'ROS 2 {DISTRO} is sourced, so nothing is installed, but {sys.executable} lacks '
-        f'{", ".join(missing)}: run `sudo apt install {packages}`.'
+        f'{", ".join(missing)}: run `sudo apt install {packages}`'
+        f'{unpackaged and f", and install {unpackaged} with its pip"}.'
     )
 
 
@@ -205,9 +222,29 @@ NOT_DOWNLOADED = (
 )
 
 
+FULL_DISK = ('No space left on device', 'Disk quota exceeded')
+
+
+def why(log: Path, otherwise: str) -> str:
+    """Say why a command failed: for want of space if its output says so, or otherwise."""
+    if any(sign in log.read_text(errors='replace') for sign in FULL_DISK):
+        return (
+            'there is no space left on a disk: setup needs about 1 GB in this folder, and pip '
+            f'some in its cache and in TMPDIR; make room and run this again (output: {log}).'
+        )
+    return otherwise
+
+
 def pip_sentence(log: Path) -> str:
     """Say in one sentence why pip failed, as far as its output tells."""
     output = log.read_text(errors='replace')
+    if 'DO NOT MATCH THE HASHES' in output:
+        others = ', '.join(re.findall(r'^ {4}([\w.-]+==[\w.]+)', output, re.MULTILINE))
+        return (
+            f'what was downloaded as {others or "one of the packages"} is not what was reviewed: '
+            'its hash is not in the requirements file, so it was not installed. Find out who '
+            f"changed it, there or on the way, before you go on (pip's output: {log})."
+        )
     if any(sign in output for sign in NOT_DOWNLOADED):
         return (
             'the Python packages could not be downloaded, since the package index could not be '
@@ -216,4 +253,6 @@ def pip_sentence(log: Path) -> str:
         )
     errors = [line for line in output.splitlines() if line.startswith('ERROR:')]
     reason = errors[0] if errors else 'nothing about why'
-    return f'pip could not install the packages, and says "{reason}" (its output: {log}).'
+    return why(
+        log, f'pip could not install the packages, and says "{reason}" (its output: {log}).'
+    )

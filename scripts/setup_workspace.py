@@ -1,7 +1,8 @@
 """Make everything that the workspace needs to run: Python packages, ROS 2, the built packages.
 
 Each step leaves a stamp that says what it was made from.  A step whose stamp still matches is
-skipped; any other is done again from nothing, so that an interrupted setup heals by itself.
+skipped; any other is done again, so that an interrupted setup heals by itself.  Extras, named as
+arguments, are what only some targets need: requirements-<extra>.txt.
 """
 
 from __future__ import annotations
@@ -11,7 +12,6 @@ import hashlib
 import os
 import shutil
 import signal
-import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -20,6 +20,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import machine
+import progress
+from progress import say
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / '.venv'
@@ -32,15 +34,10 @@ CONTROL = ROOT / 'src' / 'wrist_control'
 class Step:
     """One thing to make, and what tells whether it is made already."""
 
-    folder: Path  # holds the stamp; made anew by make
+    stamp: Path  # holds the key, written when everything else is there
     key: str  # a digest of what it is made from
     make: Callable[[], None]
     also: tuple[Path, ...] = ()  # what make leaves elsewhere
-
-    @property
-    def stamp(self) -> Path:
-        """The file that holds the key, written when everything else is there."""
-        return self.folder / '.made_from'
 
     def is_done(self) -> bool:
         """Tell whether the result is there, and was made from the same things."""
@@ -54,29 +51,45 @@ class Step:
         self.stamp.write_text(self.key)
 
 
-def steps() -> Iterator[Step]:
-    """Return every step in order; each one is done again when one before it has changed."""
+def steps(extras: Iterable[str]) -> Iterator[Step]:
+    """Return every step in order; all are done again when the first of them has changed."""
     if machine.ros_is_sourced():
-        key = digest([], 'sourced', machine.version(), *sourced_prefixes(), str(ROOT))
+        base = digest([], 'sourced', machine.version(), *sourced_prefixes(), str(ROOT))
     else:
         # The path counts too, since neither an environment nor a build can be moved.
         python = f'{sys.version_info.major}.{sys.version_info.minor} {sys.base_prefix}'
-        key = digest([ROOT / 'requirements.txt'], 'wheels', python, str(ROOT))
-        yield Step(VENV, key, make_venv)
-    key = digest((path for path in INTERFACES.rglob('*') if path.is_file()), key)
+        files = [ROOT / 'requirements-build.txt', ROOT / 'requirements.txt']
+        base = digest(files, 'wheels', python, str(ROOT))
+        yield Step(VENV / '.made_from', base, make_venv)
+    key = digest((path for path in INTERFACES.rglob('*') if path.is_file()), base)
     yield build_step(INTERFACES, key)
     # The modules themselves are linked, so that edits inside them need no new build.
     registry = CONTROL / 'wrist_control' / 'wrists' / 'registry.py'
     files = [registry, *(CONTROL / name for name in ('package.xml', 'setup.cfg', 'setup.py'))]
     configs = sorted(path.name for path in (CONTROL / 'config').glob('*.yaml'))
     yield build_step(CONTROL, digest(files, key, *configs))
+    for extra in extras:
+        yield extra_step(extra, base)
+
+
+def extra_step(extra: str, key: str) -> Step:
+    """Return the step that adds what an extra names; in a sourced ROS, it has been looked for."""
+    stamp = f'.made_from.{extra}'
+    if machine.ros_is_sourced():
+        return Step(ROOT / 'build' / stamp, key, lambda: None)
+    name = f'requirements-{extra}'
+    return Step(
+        stamp=VENV / stamp,
+        key=digest([ROOT / f'{name}.txt'], key),
+        make=lambda: install(name, f'installing what `{extra}` needs'),
+    )
 
 
 def build_step(package: Path, key: str) -> Step:
     """Return the step that builds one package with colcon."""
     share = ROOT / 'install' / package.name / 'share' / package.name
     return Step(
-        folder=ROOT / 'build' / package.name,
+        stamp=ROOT / 'build' / package.name / '.made_from',
         key=key,
         make=lambda: build(package.name),
         also=(share / 'package.sh', ROOT / 'install' / 'local_setup.sh'),
@@ -99,24 +112,32 @@ def digest(files: Iterable[Path], *words: str) -> str:
 
 
 def make_venv() -> None:
-    """Make .venv anew and install every package of requirements.txt."""
-    say(f'making .venv with Python {machine.version()}')
+    """Make .venv anew and install what every target needs."""
     bare = [] if machine.has_module('ensurepip') else ['--without-pip']
     venv = [sys.executable, '-m', 'venv', '--clear', *bare, str(VENV)]
-    if failed(venv, LOGS / 'setup_venv.txt'):
-        raise machine.SetupError(f'.venv could not be made: see {LOGS / "setup_venv.txt"}.')
+    log = LOGS / 'setup_venv.txt'
+    if not progress.run(f'making .venv with Python {machine.version()}', venv, log):
+        raise machine.SetupError(machine.why(log, f'.venv could not be made: see {log}.'))
     (VENV / 'COLCON_IGNORE').touch()  # colcon shall not look for packages in it
     (VENV / 'local_setup.sh').touch()  # colcon warns about a ROS prefix without one
-
-    say('installing ROS 2 Jazzy and the tools, about 200 MB: one to three minutes')
-    requirements = str(ROOT / 'requirements.txt')
-    # The pins hold for what pip needs to build a source distribution, too.
-    pins = {'PIP_CONSTRAINT': requirements, 'PIP_BUILD_CONSTRAINT': requirements, 'PIP_USER': '0'}
-    options = ['--no-input', '--disable-pip-version-check', '--no-deps', '--progress-bar=off']
-    install = [*pip(), 'install', *options, '-r', requirements]
-    if failed(install, LOGS / 'setup_pip.txt', os.environ | pins):
-        raise machine.SetupError(machine.pip_sentence(LOGS / 'setup_pip.txt'))
+    # First what builds a distribution without a wheel: no other build tool is taken.
+    install('requirements-build', 'installing the build tools')
+    install('requirements', 'installing ROS 2 Jazzy and the tools, about 200 MB')
     (VENV / 'made_with').write_text(sys.executable)
+
+
+def install(name: str, title: str) -> None:
+    """Install what one requirements file pins, and nothing that is not what was reviewed."""
+    requirements = ROOT / f'{name}.txt'
+    options = ['--no-input', '--disable-pip-version-check', '--progress-bar=off']
+    options += ['--require-hashes', '--no-deps', '--no-build-isolation']
+    command = [*pip(), 'install', *options, '-r', str(requirements)]
+    # Constraints of the user's own would only stand against the pins.
+    env = {name: value for name, value in os.environ.items() if name != 'PIP_BUILD_CONSTRAINT'}
+    env |= {'PIP_CONSTRAINT': os.devnull, 'PIP_USER': '0'}
+    log = LOGS / f'setup_{name}.txt'
+    if not progress.run(title, command, log, progress.packages(requirements.read_text()), env):
+        raise machine.SetupError(machine.pip_sentence(log))
 
 
 def pip() -> list[str]:
@@ -129,7 +150,6 @@ def pip() -> list[str]:
 
 def build(package: str) -> None:
     """Build one package from nothing."""
-    say(f'building {package}')
     for folder in ('build', 'install'):
         shutil.rmtree(ROOT / folder / package, ignore_errors=True)
     env = build_environment()
@@ -140,9 +160,10 @@ def build(package: str) -> None:
     command += ['-DBUILD_TESTING=OFF', '-DCMAKE_BUILD_TYPE=Release']
     command += [f'-DPython3_EXECUTABLE={python}']
     log = LOGS / f'setup_{package}.txt'
-    if failed(command, log, env):
+    if not progress.run(f'building {package}', command, log, progress.percent, env):
         print(*log.read_text(errors='replace').splitlines()[-30:], sep='\n', file=sys.stderr)
-        raise machine.SetupError(f'{package} could not be built, as said above and in {log}.')
+        otherwise = f'{package} could not be built, as said above and in {log}.'
+        raise machine.SetupError(machine.why(log, otherwise))
 
 
 def build_environment() -> dict[str, str]:
@@ -160,16 +181,6 @@ def build_environment() -> dict[str, str]:
     )
 
 
-def failed(command: Sequence[str], log: Path, env: dict[str, str] | None = None) -> bool:
-    """Run a command with all of its output in a log, and tell whether it failed."""
-    log.parent.mkdir(exist_ok=True)
-    with log.open('w') as output:
-        done = subprocess.run(
-            command, cwd=ROOT, env=env, stdin=subprocess.DEVNULL, stdout=output, stderr=output
-        )
-    return done.returncode != 0
-
-
 @contextmanager
 def alone() -> Iterator[None]:
     """Wait until no other setup of this checkout is running."""
@@ -182,29 +193,39 @@ def alone() -> Iterator[None]:
         yield
 
 
-def say(sentence: str) -> None:
-    """Tell the user what is going on."""
-    print(f'setup: {sentence}', flush=True)
-
-
-def setup() -> None:
+def setup(extras: Sequence[str]) -> None:
     """Do every step that is not done yet."""
     start = time.monotonic()
-    open_steps = [step for step in steps() if not step.is_done()]
+    open_steps = [step for step in steps(extras) if not step.is_done()]
     if not open_steps:
         return
-    machine.check(ROOT)
+    machine.check(ROOT, extras)
     for step in open_steps:
         step.do()
     say(f'done in {time.monotonic() - start:.0f} s')
 
 
-def main() -> int:
+def check_names(extras: Iterable[str]) -> None:
+    """Raise SetupError for an extra that nothing is known about."""
+    known = {path.stem.removeprefix('requirements-') for path in ROOT.glob('requirements-*.txt')}
+    known -= {'build'}  # which every setup installs
+    for extra in extras:
+        if extra not in known:
+            raise machine.SetupError(
+                f"there is no extra '{extra}': choose from {', '.join(sorted(known))}."
+            )
+
+
+def main(extras: Sequence[str]) -> int:
     """Set the workspace up; every foreseeable failure is one sentence and a non-zero exit."""
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that children end as well
+    # All end alike, and what was started ends as well; nohup's wish is heeded.
+    for number in progress.INTERRUPTIONS:
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, signal.default_int_handler)
     try:
+        check_names(extras)
         with alone():
-            setup()
+            setup(extras)
     except (machine.SetupError, OSError) as error:
         for sentence in str(error).splitlines():
             print(f'setup: {sentence}', file=sys.stderr)
@@ -216,4 +237,4 @@ def main() -> int:
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:]))
