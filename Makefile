@@ -21,6 +21,13 @@ test: setup  ## check the code with ruff and mypy, then run every test
 	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
 	exit $$lint
 
+.PHONY: coverage
+coverage: setup  ## run every test, and show in out/coverage/ which lines none of them runs
+	@./env python3 -m coverage erase; tests=0; \
+	./env python3 -m coverage run -m pytest -n 2 || tests=$$?; \
+	./env python3 -m coverage combine --quiet && ./env python3 -m coverage report && \
+	./env python3 -m coverage html --quiet && exit $$tests
+
 .PHONY: lint
 lint: setup  ## check the code with ruff and mypy
 	@./env python3 scripts/lint.py
