@@ -24,7 +24,10 @@ def blocks(language):
 
 
 COMMANDS = [line for block in blocks('sh') for line in block.splitlines()]
-DOCUMENTS = [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('**/*.md'))]
+DOCUMENTS = [
+    *(ROOT / name for name in ('README.md', 'CONTRIBUTING.md', 'examples/README.md')),
+    *sorted((ROOT / 'docs').glob('**/*.md')),
+]
 NODES = [line for line in COMMANDS if '--ros-args' in line]
 PROGRAMS = [line for line in COMMANDS if line.startswith('./env') and line not in NODES]
 
@@ -56,11 +59,7 @@ def test_the_readme_starts_with_the_two_commands():
     assert [line.split('#')[0].strip() for line in COMMANDS[:2]] == ['make demo', 'make test']
 
 
-@pytest.mark.parametrize(
-    'document',
-    [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('**/*.md'))],
-    ids=lambda p: p.name,
-)
+@pytest.mark.parametrize('document', DOCUMENTS, ids=lambda p: p.name)
 def test_every_link_and_picture_of_a_document_is_there(document):
     for target in re.findall(r'\]\(([^)#\s]+)\)', document.read_text()):
         assert (document.parent / target).exists(), target
