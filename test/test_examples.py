@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from wrist_control import fly, make_wrist
-from wrist_control.operating.maneuvers import BARKER_SPEED
+from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, turn
 
 FOLDER = Path(__file__).resolve().parents[1] / 'examples'
 SCRIPTS = sorted(FOLDER.glob('*.py'))
@@ -41,7 +41,11 @@ def choose_a_wrist(said):
     able, others = said.split('not able:')
     lost = {name: float(x) for name, x in re.findall(r'(\w+) +([\d.]+) s +[\d.]+ deg', able)}
     assert list(lost.values()) == sorted(lost.values())
-    assert lost['double_hooke'] == lost['omni_wrist'] == 0.0 < lost['four_gimbal'] < 2.0
+    angles = {1: 80.0, 2: 90.0, 0: 180.0}
+    turns = (turn(axis, math.radians(angle), BARKER_SPEED) for axis, angle in angles.items())
+    flight = fly('four_gimbal', Maneuver('task', tuple(turns)), joint_rate_limits=BARKER_SPEED)
+    assert lost['four_gimbal'] == pytest.approx(flight.time_lost[-1], abs=0.005)
+    assert lost['double_hooke'] == lost['omni_wrist'] == 0.0
     for points_only in ('carpal', 'pitch_yaw', 'five_bar'):
         assert re.search(rf'{points_only} +points only', others)
 
