@@ -21,41 +21,41 @@ from wrist_interfaces.msg import WristStatus
 
 TABLE = Path('out/recording.csv')
 CONFIGS = [config_file(name) for name in ('three_gimbal.yaml', 'demo.yaml')]
-TOPICS = {'cmd_vel': TwistStamped, 'joint_states': JointState, 'wrist_status': WristStatus}
 WRIST = make_wrist('three_gimbal')
 JOINTS = [joint.name for joint in WRIST.joints]
 
 
-def record(rows):
-    """Fly the basic test maneuver through processes, and write a row for each joint state."""
+def record():
+    """Fly the basic test maneuver through processes, and return every joint state."""
     with NodeProcesses('record', CONFIGS) as processes:
         node = rclpy.create_node('recorder', namespace=processes.namespace)
-
-        def write(state):
-            where = dict(zip(state.name, state.position, strict=True))
-            rows.writerow([seconds(state.header.stamp), *(where[name] for name in JOINTS)])
-
-        node.create_subscription(JointState, 'joint_states', write, 10)
-        for name in ('three_gimbal_resolver', 'joint_simulator', 'operator'):
-            processes.start(name, {})
         # A simulated clock that waits for every node: each run gives the same numbers.
         clock = Lockstep(node, 1.0 / 32.0, alive=processes.check)
-        clock.listen(TOPICS)
+        processes.start('three_gimbal_resolver', {})
+        processes.start('joint_simulator', {})
+        clock.listen({'joint_states': JointState, 'wrist_status': WristStatus})
+        clock.begin()
+        processes.start('operator', {})
+        clock.listen({'cmd_vel': TwistStamped})
         clock.begin()
         moved = False
         while not moved or clock.heard['wrist_status'][-1].state != WristStatus.IDLE:
             clock.tick()
             moved = moved or clock.heard['wrist_status'][-1].state == WristStatus.TRACKING
         node.destroy_node()
+    return clock.heard['joint_states']
 
 
-TABLE.parent.mkdir(exist_ok=True)
 rclpy.init(signal_handler_options=SignalHandlerOptions.NO)  # Ctrl-C ends the processes in order
+states = record()
+rclpy.shutdown()
+TABLE.parent.mkdir(exist_ok=True)
 with TABLE.open('w', newline='') as file:
     table = csv.writer(file)
     table.writerow(['time', *JOINTS])
-    record(table)
-rclpy.shutdown()
+    for state in states:
+        where = dict(zip(state.name, state.position, strict=True))
+        table.writerow([seconds(state.header.stamp), *(where[name] for name in JOINTS)])
 
 # From here on it is a table of numbers, whoever recorded it.
 recording = np.genfromtxt(TABLE, delimiter=',', names=True)
