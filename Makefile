@@ -25,6 +25,13 @@ test: setup-test setup-docs  ## check the code with ruff and mypy, then run ever
 	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
 	exit $$lint
 
+.PHONY: coverage
+coverage: setup-test setup-docs  ## run every test, and show in out/coverage/ which lines none of them runs
+	@./env python3 -m coverage erase; tests=0; \
+	./env python3 -m coverage run -m pytest -n 2 || tests=$$?; \
+	./env python3 -m coverage combine --quiet && ./env python3 -m coverage report && \
+	./env python3 -m coverage html --quiet && exit $$tests
+
 .PHONY: lint
 lint: setup-test  ## check the code with ruff and mypy
 	@./env python3 scripts/lint.py

@@ -47,6 +47,7 @@ APT_OF_EXTRA = {
         'sphinx': 'python3-sphinx',
     },
     'test': {
+        'coverage': 'python3-coverage',
         'hypothesis': 'python3-hypothesis',
         'pytest': 'python3-pytest',
         'pytest_timeout': 'python3-pytest-timeout',

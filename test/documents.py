@@ -4,7 +4,10 @@ import re
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-DOCUMENTS = [ROOT / 'README.md', *sorted((ROOT / 'docs').glob('**/*.md'))]
+DOCUMENTS = [
+    *(ROOT / name for name in ('README.md', 'CONTRIBUTING.md', 'examples/README.md')),
+    *sorted((ROOT / 'docs').glob('**/*.md')),
+]
 FIRST_STEPS = ROOT / 'docs' / 'first-steps.md'
 BLOCK = re.compile(r'^```(\S*)\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 

@@ -72,6 +72,8 @@ def test_every_row_of_a_table_is_true(graph, section):
             assert tuple(found) == pytest.approx(expected), name
         if match := re.match(r'(-?[\de.-]+) to ([\d.]+|inf)( \S+)?', valid):
             assert descriptor.additional_constraints.endswith(f' {match[0]}'), name
+        if valid.startswith(('above 0', 'what stops')):
+            assert ' 0 to inf ' in descriptor.additional_constraints, name
 
 
 @pytest.mark.parametrize(('wrist', 'unit'), [('three_gimbal', 'rad'), ('stewart', 'm')])
