@@ -133,7 +133,15 @@ def test_a_file_that_is_no_parameter_file_is_one_sentence(graph, tmp_path):
 
 
 def test_what_is_said_of_an_error_without_a_rule_is_the_error():
-    assert what_is_wrong(RuntimeError('no such thing')).startswith('no such thing; valid after')
+    assert what_is_wrong(RuntimeError('no such thing')) == 'no such thing.'
+
+
+def test_a_log_that_cannot_be_kept_is_one_sentence(graph, monkeypatch):
+    monkeypatch.setenv('ROS_LOG_DIR', '/proc/nowhere')
+    assert (
+        'Cannot start: ROS cannot keep its log in /proc/nowhere; set ROS_LOG_DIR to a folder of '
+        'yours.'
+    ) in refused(graph, 'operator')
 
 
 def test_why_a_node_cannot_start_is_heard_on_rosout(graph):

@@ -13,8 +13,13 @@ import pytest
 from wrist_control import fly, make_wrist
 from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, turn
 
+from .documents import FIRST_STEPS
+
 FOLDER = Path(__file__).resolve().parents[1] / 'examples'
 SCRIPTS = sorted(FOLDER.glob('*.py'))
+# These need somebody's resolver: test_first_steps.py runs them beside one.
+BESIDE_A_RESOLVER = ('stop_wrist', 'watch_wrist')
+ALONE = [script for script in SCRIPTS if script.stem not in BESIDE_A_RESOLVER]
 
 
 def numbers(said, pattern):
@@ -106,7 +111,7 @@ def start(script, environment):
     )
 
 
-@pytest.mark.parametrize('script', SCRIPTS, ids=lambda script: script.stem)
+@pytest.mark.parametrize('script', ALONE, ids=lambda script: script.stem)
 def test_an_example_runs_and_says_what_the_library_says(
     process_environment, own_processes, tmp_path, monkeypatch, script
 ):
@@ -132,6 +137,11 @@ def test_a_live_example_that_is_interrupted_leaves_no_process_behind(
     process.send_signal(signal.SIGINT)
     process.communicate(timeout=60.0)
     assert own_processes() == []
+
+
+@pytest.mark.parametrize('name', BESIDE_A_RESOLVER)
+def test_the_others_are_run_by_the_first_steps(name):
+    assert f'./env python examples/{name}.py' in FIRST_STEPS.read_text()
 
 
 def test_the_list_of_the_examples_is_the_folder():

@@ -35,6 +35,8 @@ KEYS = {
     }.items()
 }
 BUILD = "from setuptools import build_meta as b; b.build_sdist('dist'); b.build_wheel('dist')"
+# What tools leave in the package's folder.
+MADE = ('__pycache__', '.hypothesis', '.pytest_cache', 'build', 'wrist_control.egg-info')
 WITHOUT_ROS = {name: value for name, value in os.environ.items() if name != 'AMENT_PREFIX_PATH'}
 
 
@@ -58,7 +60,7 @@ def imports():
 def dist(tmp_path_factory):
     """The package, copied from the repository and built where there is no ROS."""
     copy = tmp_path_factory.mktemp('release') / 'wrist_control'
-    shutil.copytree(CONTROL, copy, ignore=shutil.ignore_patterns('__pycache__', '*.egg-info'))
+    shutil.copytree(CONTROL, copy, ignore=shutil.ignore_patterns(*MADE))
     done = subprocess.run(
         [sys.executable, '-W', 'error', '-c', BUILD],
         cwd=copy,
@@ -157,7 +159,7 @@ def test_the_source_release_is_whole(dist):
     wanted = {
         str(file.relative_to(CONTROL))
         for file in CONTROL.rglob('*')
-        if file.is_file() and '__pycache__' not in file.parts and '.egg-info' not in str(file)
+        if file.is_file() and not set(file.relative_to(CONTROL).parts) & set(MADE)
     }
     assert wanted <= names, wanted - names
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from ament_index_python.packages import get_package_prefix
 
-from wrist_control.graph.processes import config_file
+from wrist_control.graph.processes import NodeProcesses, config_file
 from wrist_control.wrists import WRISTS
 
 EXECUTABLES = Path(get_package_prefix('wrist_control')) / 'lib' / 'wrist_control'
@@ -58,7 +58,7 @@ def test_a_bad_parameter_ends_a_node_with_one_sentence(process_environment):
     process = start(process_environment, 'four_gimbal_resolver', '-p', 'gain:=-1.0')
     _, said = process.communicate(timeout=30.0)
     assert process.returncode == 2
-    assert said.startswith('Cannot start: gain is -1.0; valid is')
+    assert '[four_gimbal_resolver]: Cannot start: gain is -1.0; valid is' in said
     assert len(said.strip().splitlines()) == 1
 
 
@@ -132,3 +132,38 @@ def test_the_demo_leaves_no_process_behind_when_it_is_stopped(
     process.communicate(timeout=30.0)
     assert process.returncode in (130, 143)
     assert own_processes() == []
+
+
+@pytest.mark.parametrize(
+    ('number', 'raised'), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)]
+)
+def test_a_signal_while_a_node_begins_leaves_nothing_running(monkeypatch, number, raised):
+    begun = []
+    really_begin = subprocess.Popen
+
+    def begin(*arguments, **options):
+        begun.append(really_begin(*arguments, **options))
+        signal.raise_signal(number)  # the node is there, and nobody has been told yet
+        return begun[-1]
+
+    monkeypatch.setattr(subprocess, 'Popen', begin)
+    with pytest.raises(raised), NodeProcesses('held', []) as nodes:
+        nodes.start('operator', {})
+    assert begun[0].poll() is not None
+
+
+@pytest.mark.parametrize(
+    ('number', 'raised'), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)]
+)
+def test_an_interruption_that_ros_has_made_something_else_of_is_one_again(number, raised):
+    before = signal.getsignal(number)
+
+    def call_into_ros():
+        try:
+            signal.raise_signal(number)
+        except BaseException as interruption:
+            raise RuntimeError('Unable to convert call argument') from interruption
+
+    with pytest.raises(raised), NodeProcesses('held', []):
+        call_into_ros()
+    assert signal.getsignal(number) == before

@@ -136,7 +136,10 @@ def test_where_ros_is_sourced_what_an_extra_lacks_is_said(machine, sourced):
     code, sentences = machine.set_up('test', **sourced)
     assert code == 1
     assert 'ROS 2 jazzy is sourced, so nothing is installed, but ' in sentences
-    assert 'lacks hypothesis, pytest, pytest_timeout, scipy, xdist: run `sudo apt' in sentences
+    assert (
+        'lacks coverage, hypothesis, pytest, pytest_timeout, scipy, xdist: run `sudo apt'
+        in sentences
+    )
 
 
 def test_no_compiler(machine):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 
@@ -17,6 +17,8 @@ from wrist_control.errors import WristError
 PACKAGE = 'wrist_control'
 # A node that has not ended this long after it was asked to is killed, s.
 GRACE = 5.0
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+TERMINATED = 128 + signal.SIGTERM  # the exit code
 
 
 class NodeEndedError(WristError, RuntimeError):
@@ -50,6 +52,7 @@ class NodeProcesses:
         self.namespace = f'/{name}_{os.getpid()}'
         self._files = files
         self._running: dict[str, subprocess.Popen] = {}
+        self._interruption: BaseException | None = None
 
     def start(self, executable: str, parameters: Mapping[str, object]) -> None:
         """Start a node of this package.
@@ -70,7 +73,8 @@ class NodeProcesses:
         ]
         command += [*_each('--params-file', map(str, self._files)), *_each('-p', values)]
         # In a group of their own, so that Ctrl-C reaches the caller alone, who ends them in order.
-        self._running[executable] = subprocess.Popen(command, start_new_session=True)
+        with _signals_held():  # or a node that has just begun would be known to nobody
+            self._running[executable] = subprocess.Popen(command, start_new_session=True)
 
     def check(self) -> None:
         """Raise NodeEndedError if a node is gone."""
@@ -82,8 +86,13 @@ class NodeProcesses:
 
     def __enter__(self) -> NodeProcesses:
         """Be told of SIGTERM as of Ctrl-C, so that the nodes are always ended."""
-        self._before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+        self._before = {number: signal.signal(number, self._interrupt) for number in SIGNALS}
         return self
+
+    def _interrupt(self, number: int, _: object) -> None:
+        is_term = number == signal.SIGTERM
+        self._interruption = SystemExit(TERMINATED) if is_term else KeyboardInterrupt()
+        raise self._interruption
 
     def __exit__(
         self,
@@ -100,7 +109,27 @@ class NodeProcesses:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
-        signal.signal(signal.SIGTERM, self._before)
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+        if self._interruption is not None and isinstance(error, Exception):
+            # It came in the middle of a call into ROS, which has made an error of its own of it.
+            raise self._interruption from None
+
+
+@contextmanager
+def _signals_held() -> Iterator[None]:
+    """Let a signal that comes within the block do what it does when the block is over."""
+    told: list[int] = []
+    before = {
+        number: signal.signal(number, lambda came, _: told.append(came)) for number in SIGNALS
+    }
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for came in told:
+            signal.raise_signal(came)
 
 
 def _each(flag: str, values: Iterable[str]) -> list[str]:

@@ -21,14 +21,19 @@ LONG = {'--param': '-p', '--remap': '-r'}
 REFUSED = re.compile(r"'((-\S+) (.*))'\. Error: (.*?)(?:\s*, at /.*)?$", re.DOTALL)
 # Reasons that say how ROS reads, and not what it has read.
 UNCLEAR = re.compile('lexeme|error not set')
+LOGS = re.compile("Failed to create log directory '(.*?)'")
 PARAMETERS = 'ros__parameters'
 
 
 def what_is_wrong(error: Exception) -> str:
-    """Return what ROS finds wrong with a command line, as a sentence for whoever typed it."""
+    """Return why ROS cannot start with a command line, as a sentence for whoever typed it."""
+    if type(error).__name__ == 'UnknownROSArgsError':
+        return f'{error}; valid after --ros-args are {", ".join(VALID)}.'
+    if folder := LOGS.search(str(error)):
+        return f'ROS cannot keep its log in {folder[1]}; set ROS_LOG_DIR to a folder of yours.'
     refused = REFUSED.search(str(error))
     if refused is None:
-        return f'{error}; valid after --ros-args are {", ".join(VALID)}.'
+        return f'{error}.'
     given, flag, argument, reason = refused.groups()
     valid = VALID.get(LONG.get(flag, flag), 'what ROS 2 takes')
     if flag == '--params-file' and not Path(argument).is_file():
