@@ -161,4 +161,18 @@ EQUIVALENT = (
         )
         for after in ('(1.0)', '(-1.0)')
     ),
+    Equivalent(
+        'resolving/platform_observer.py',
+        'check_possible(self._wrist.platform, self._wrist.base, lengths)',
+        'check_possible(self._wrist.platform, self._wrist.base, lengths)',
+        '(check_possible(self._wrist.base, self._wrist.platform, lengths))',
+        'two legs differ by no more than their anchors are apart, on either side',
+    ),
+    Equivalent(
+        'resolving/supervisor.py',
+        "self, *, stamp_time: float, receipt_time: float, withheld: str = '', pause: float = 0.0",
+        '0.0',
+        '(-1.0)',
+        'a pause counts only when it is long',
+    ),
 )
