@@ -175,4 +175,11 @@ EQUIVALENT = (
         '(-1.0)',
         'a pause counts only when it is long',
     ),
+    Equivalent(
+        'resolving/easing.py',
+        'POWERS = (0.25, 4.0)',
+        '0.25',
+        '(0.025)',
+        'joints go with a root of the factor at the least, so that only rounding comes this low',
+    ),
 )
