@@ -117,6 +117,7 @@ CHOSEN = tuple(
             'what a servo settles at is taken over again and again: it creeps',
         ),
         (SUPERVISOR, 'feedback.forget_lag()', 'pass', 'a fault as soon as it is enabled'),
+        (SUPERVISOR, ' = Mode.HOMING, 0.0', ' = Mode.HOMING, 1.0', 'a reset moves who may not'),
         (
             SUPERVISOR,
             'Mode.FOLLOWING\n        self._commands.clear()\n        feedback',

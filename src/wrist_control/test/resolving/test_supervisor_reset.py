@@ -88,6 +88,26 @@ def test_a_reset_can_be_broken_off_by_disabling(wrist):
     assert wrist.positions == stopped != wrist.initial
 
 
+@pytest.mark.parametrize('resets', [0, 1])
+def test_a_reset_of_a_hand_whose_permission_is_running_out_begins_no_motion(wrist, resets):
+    """As when the dead-man's switch was released a moment before: half of nothing is nothing."""
+    for _ in range(resets):
+        wrist.ticks(0.5, PITCH)
+        wrist.supervisor.reset()
+        wrist.ticks(3.0)
+    wrist.ticks(0.5, PITCH)
+    wrist.ticks(1.0)
+    stopped = wrist.positions
+    for period in range(100):
+        wrist.count += 1
+        if period == 4:
+            wrist.supervisor.reset()
+        wrist.supervisor.tick(
+            stamp_time=wrist.now, receipt_time=wrist.now, withheld='The switch was released.'
+        )
+    assert wrist.positions == stopped != wrist.initial
+
+
 def test_a_reset_to_where_new_limits_forbid_to_be_is_refused(wrist):
     wrist.ticks(0.5, (0.0, 0.0, 0.0, -0.4, 0.0, 0.0))
     wrist.supervisor.wrist = wrist.supervisor.wrist.with_limits(upper=(2.0, 2.0, 0.2))

@@ -162,7 +162,7 @@ class Supervisor:
             )
         goal = start(self.wrist, self.settings.initial_positions).positions
         check_way_home(self.wrist, self.state, goal)
-        self.mode = Mode.HOMING
+        self.mode, self._home_speed = Mode.HOMING, 0.0
         return 'On the way back to initial_positions; time lost starts again from zero there.'
 
     def tick(
