@@ -146,10 +146,12 @@ def test_another_value_of_what_may_not_change_is_refused(graph, node):
     assert loaded(graph, running, {name: running.get_parameter(name).value}) == []
 
 
-def silent(tmp_path, text, node='/left/operator'):
-    file = tmp_path / 'some.yaml'
-    file.write_text(text)
-    return [*silent_files(['operator', '--ros-args', '--params-file', str(file)], node)]
+def silent(tmp_path, *texts, node='/left/operator'):
+    arguments = ['/bin/operator', '--ros-args']
+    for name, text in zip(('some.yaml', 'other.yaml'), texts, strict=False):
+        (tmp_path / name).write_text(text)
+        arguments += ['--params-file', str(tmp_path / name)]
+    return [*silent_files(arguments, node)]
 
 
 RATE = '{ros__parameters: {rate: 5.0}}'
@@ -168,3 +170,11 @@ def test_a_file_for_other_nodes_alone_is_named(tmp_path, key):
     (sentence,) = silent(tmp_path, f'{key}: {RATE}')
     assert 'and none of /left/operator: it changes nothing here' in sentence
     assert 'some.yaml' in sentence
+
+
+def test_of_several_files_those_for_other_nodes_are_not_named(tmp_path):
+    mine, others = f'/**: {RATE}', f'/**/resolver: {RATE}'
+    assert silent(tmp_path, mine, others) == []
+    assert len(silent(tmp_path, others, others)) == 2
+    (sentence,) = silent(tmp_path, mine, f'/**/operator: {RATE}', node='/left/pilot')
+    assert sentence.startswith(f'{tmp_path}/other.yaml has parameters of /**/operator')

@@ -43,17 +43,24 @@ def what_is_wrong(error: Exception) -> str:
 
 
 def silent_files(arguments: Sequence[str], node: str) -> Iterator[str]:
-    """Yield a sentence for every parameter file of a command line that is for other nodes only.
+    """Yield a sentence for every parameter file that is meant for a node and does not reach it.
+
+    One of several may be for other nodes: it is meant for this one if it names the executable.
 
     Args:
-        arguments: The command line.
+        arguments: The command line, which begins with the executable.
         node: The node's name with its namespace: `/left/operator`.
     """
-    for flag, file in itertools.pairwise(arguments):
-        if flag != '--params-file':
-            continue
-        keys = list(_keys(yaml.safe_load(Path(file).read_text())))
-        if keys and not any(_matches(key, node) for key in keys):
+    executable = Path(arguments[0]).name
+    files = {
+        file: list(_keys(yaml.safe_load(Path(file).read_text())))
+        for flag, file in itertools.pairwise(arguments)
+        if flag == '--params-file'
+    }
+    silent = [file for file, keys in files.items() if not any(_matches(key, node) for key in keys)]
+    for file in silent:
+        keys = files[file]
+        if silent == [*files] or executable in {key.rpartition('/')[2] for key in keys}:
             yield (
                 f'{file} has parameters of {", ".join(keys)}, and none of {node}: it changes '
                 f'nothing here; put them under {node}, or under /** for every node.'
