@@ -176,5 +176,7 @@ def test_of_several_files_those_for_other_nodes_are_not_named(tmp_path):
     mine, others = f'/**: {RATE}', f'/**/resolver: {RATE}'
     assert silent(tmp_path, mine, others) == []
     assert len(silent(tmp_path, others, others)) == 2
+    assert silent(tmp_path, '', '# nothing\n') == []
+    assert len(silent(tmp_path, f'5: {RATE}')) == 1
     (sentence,) = silent(tmp_path, mine, f'/**/operator: {RATE}', node='/left/pilot')
     assert sentence.startswith(f'{tmp_path}/other.yaml has parameters of /**/operator')

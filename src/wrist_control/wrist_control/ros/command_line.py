@@ -53,11 +53,15 @@ def silent_files(arguments: Sequence[str], node: str) -> Iterator[str]:
     """
     executable = Path(arguments[0]).name
     files = {
-        file: list(_keys(yaml.safe_load(Path(file).read_text())))
+        file: list(_keys(yaml.safe_load(Path(file).read_text()) or {}))
         for flag, file in itertools.pairwise(arguments)
         if flag == '--params-file'
     }
-    silent = [file for file, keys in files.items() if not any(_matches(key, node) for key in keys)]
+    silent = [
+        file
+        for file, keys in files.items()
+        if keys and not any(_matches(key, node) for key in keys)
+    ]
     for file in silent:
         keys = files[file]
         if silent == [*files] or executable in {key.rpartition('/')[2] for key in keys}:
@@ -70,7 +74,7 @@ def silent_files(arguments: Sequence[str], node: str) -> Iterator[str]:
 def _keys(content: Mapping[str, Any], before: str = '') -> Iterator[str]:
     """Yield the names of nodes, with their wildcards, that a file has parameters for."""
     for name, value in content.items():
-        key = f'{before}/{name.strip("/")}'
+        key = f'{before}/{str(name).strip("/")}'
         if isinstance(value, Mapping):
             if PARAMETERS in value:
                 yield key
