@@ -47,6 +47,12 @@ class Pose(NamedTuple):
         """The quaternion in the order of ROS and SciPy: x, y, z, w."""
         return xyzw(self.quaternion)
 
+    def point(self, offset: Vector) -> Vector:
+        """Return the forearm components of a point given in the axes of the pose, m."""
+        x, y, z = self.position
+        dx, dy, dz = to_forearm(self.quaternion, offset)
+        return (x + dx, y + dy, z + dz)
+
 
 class Poses(NamedTuple):
     """Many poses as arrays, one row each.
@@ -171,6 +177,15 @@ def to_forearm(a: Quaternion, vector: Vector) -> Vector:
 def to_hand(a: Quaternion, vector: Vector) -> Vector:
     """Return the hand components of a vector given in forearm axes: C v."""
     return to_forearm(conjugate(a), vector)
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """Return the vector product a × b."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
 
 
 def about_x(angle: float) -> Quaternion:

@@ -16,12 +16,15 @@ from wrist_control.testing.eased import EASED
 from wrist_control.testing.held import HELD
 from wrist_control.testing.lock import LOCK
 from wrist_control.testing.motion import MOTION
+from wrist_control.testing.seen import SEEN
 from wrist_control.wrists.wrist import Wrist
 
 __all__ = ['LAWS', 'LawBrokenError', 'check_wrist']
 
 Law = Callable[[Wrist, np.random.Generator], None]
-LAWS: dict[str, Law] = {law.__name__: law for law in (*ANSWERS, *LOCK, *MOTION, *HELD, *EASED)}
+LAWS: dict[str, Law] = {
+    law.__name__: law for law in (*ANSWERS, *LOCK, *MOTION, *HELD, *EASED, *SEEN)
+}
 
 
 def check_wrist(wrist: Wrist, seed: int = 1) -> None:

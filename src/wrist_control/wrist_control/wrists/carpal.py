@@ -15,7 +15,18 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from wrist_control.errors import InvalidValueError, UnreachableError
-from wrist_control.rotations import Pose, Vector, nearest_turn, turned, unit
+from wrist_control.rotations import (
+    Pose,
+    Vector,
+    cross,
+    nearest_turn,
+    quaternion_of,
+    to_forearm,
+    turned,
+    unit,
+)
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Ball, Body, Pin, Plate, Rod
 from wrist_control.wrists.dimension import dimension
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist, soft_edge
@@ -146,8 +157,8 @@ class Carpal(Wrist):
         columns = []
         for lift, begin, end in zip(lifts, (b, c, a), (c, a, b), strict=True):
             gain = lift / area
-            turning = _cross(_from(begin, end), (x, y, z))
-            share = _cross(_from(pivot, begin), _from(pivot, end))
+            turning = cross(_from(begin, end), (x, y, z))
+            share = cross(_from(pivot, begin), _from(pivot, end))
             plunging = (x * share[0] + y * share[1] + z * share[2]) / z
             upward = gain if z > 0.0 else -gain
             columns.append((upward * turning[0], upward * turning[1], gain * plunging))
@@ -201,6 +212,35 @@ class Carpal(Wrist):
             for name, distance in zip(EDGES, self._distances(positions), strict=True)
         )
 
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return the base, three legs of two links, and the hand, which is the base mirrored."""
+        pose = self.forward(positions)
+        base, legs, distal = [], [], []
+        for leg, (theta, (cos, sin)) in enumerate(zip(positions, AZIMUTHS, strict=True), start=1):
+            hinge = (self.base_radius * cos, self.base_radius * sin, 0.0)
+            out, across = math.cos(theta), (-sin, cos, 0.0)
+            lower = _leg(hinge, (out * cos, out * sin, math.sin(theta)), across)
+            mid = Pin(f'mid_{leg}', (self.leg_length, 0.0, 0.0))
+            top, node = pose.point(hinge), lower.point(mid.point)
+            along = body.scaled(_from(top, node), 1.0 / self.leg_length)
+            upper = _leg(top, along, to_forearm(pose.quaternion, across))
+            first, last = f'theta_{leg}', f'distal_{leg}'
+            axle = Rod((0.0, -4.0 * body.BAR, 0.0), (0.0, 4.0 * body.BAR, 0.0))
+            link = (Rod(body.ORIGIN, mid.point), axle, Ball(mid.point, 2.0 * body.BAR))
+            base.append(Pin(first, hinge, body.scaled(across, -1.0)))
+            distal.append(Pin(last, hinge, across))
+            driven = Pin(first, body.ORIGIN, body.RIGHT)
+            legs.append(Body(f'lower_leg_{leg}', lower, link, (driven, mid)))
+            passive = Pin(last, body.ORIGIN, body.Y)
+            legs.append(Body(f'upper_leg_{leg}', upper, link, (passive, mid)))
+        plate = Plate(tuple(pin.point for pin in base), 2.0 * body.BAR)
+        stem = Rod((0.0, 0.0, -self.base_radius), body.ORIGIN, 2.0 * body.BAR)
+        return (
+            Body('forearm', body.AT_REST, (plate, stem), tuple(base)),
+            *legs,
+            body.hand(pose, tuple(distal), plate, pointing=body.Z),
+        )
+
     def reach(self, azimuth: float) -> float:
         """Return the tilt β at which a leg folds at the home plunge, rad; π where none does.
 
@@ -237,7 +277,7 @@ class Carpal(Wrist):
             ((self.base_radius + out) * cos, (self.base_radius + out) * sin, up)
             for cos, sin, out, up in legs
         )
-        x, y, z = _cross(_from(a, b), _from(a, c))
+        x, y, z = cross(_from(a, b), _from(a, c))
         area = math.sqrt(x * x + y * y + z * z)
         if area < TOLERANCE * self.leg_length * self.leg_length:
             raise _at_edge(EDGES[4])
@@ -250,13 +290,10 @@ def _at_edge(edge: str) -> UnreachableError:
     return UnreachableError(f'The hand cannot go beyond its edge, {edge}; turn it back.', edge)
 
 
+def _leg(hinge: Vector, along: Vector, across: Vector) -> Pose:
+    """Return where a link is: x along it, y along its hinge."""
+    return Pose(quaternion_of((along, across, cross(along, across))), hinge)
+
+
 def _from(a: Vector, b: Vector) -> Vector:
     return (b[0] - a[0], b[1] - a[1], b[2] - a[2])
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )

@@ -9,14 +9,27 @@ from typing import ClassVar
 
 import numpy as np
 
-from wrist_control.rotations import Pose, Vector, about_x, conjugate, nearest_turn, product
+from wrist_control.rotations import (
+    Pose,
+    Vector,
+    about_x,
+    about_y,
+    about_z,
+    conjugate,
+    nearest_turn,
+    product,
+)
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Arc, Body, Pin, Rod
 from wrist_control.wrists.dimension import dimension
 from wrist_control.wrists.joint import Joint
-from wrist_control.wrists.single_hooke import cone, cone_half_angle
+from wrist_control.wrists.single_hooke import cone, cone_half_angle, cross_rods, driven_cross
 from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist
 
 # Below this the two parts of a half-angle are round-off: the joint stays where it is.
 LOCK = 1e-9
+# Radius of the yokes that it is drawn with, as a share of the shaft's length.
+YOKE = 0.3
 
 
 def shaft_length() -> float:
@@ -119,6 +132,34 @@ class DoubleHooke(Wrist):
         """Return what is left inside the cone of the intermediate shaft."""
         _, theta, psi = positions
         return (cone(math.cos(theta) * math.cos(psi), self.cone_half_angle),)
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return a forearm, the driver, a cross, the shaft, another cross, and the hand."""
+        phi, theta, psi = positions
+        pose = self.forward(positions)
+        length, radius = self.shaft_length, YOKE * self.shaft_length
+        first = product(about_x(phi), about_y(theta))
+        near, far = (
+            Pin('psi', (0.0, 0.0, radius), body.Z),
+            Pin('psi_2', (length, 0.0, radius), body.Z),
+        )
+        here, last = Pin('psi_2', near.point, body.Z), Pin('theta_2', (0.0, radius, 0.0), body.Y)
+        shaft = (
+            body.yoke(near.point, body.X),
+            Rod((radius, 0.0, 0.0), (length - radius, 0.0, 0.0)),
+            Arc((length, 0.0, 0.0), near.point, body.RIGHT, math.pi),
+        )
+        return (
+            *driven_cross(phi, theta, radius),
+            Body('shaft', Pose(product(first, about_z(psi))), shaft, (near, far)),
+            Body(
+                'second_cross',
+                Pose(product(first, about_z(2.0 * psi)), pose.position),
+                cross_rods(radius),
+                (here, last),
+            ),
+            body.hand(pose, (last,), body.yoke(last.point, body.X), palm=radius),
+        )
 
 
 def _shaft(theta: float, psi: float) -> Vector:

@@ -16,7 +16,19 @@ from typing import ClassVar
 import numpy as np
 
 from wrist_control.errors import UnreachableError
-from wrist_control.rotations import Pose, direction_cosines, nearest_turn
+from wrist_control.rotations import (
+    Pose,
+    Vector,
+    about_x,
+    about_y,
+    cross,
+    direction_cosines,
+    nearest_turn,
+    quaternion_of,
+    to_forearm,
+)
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Arc, Body, Pin, Rod
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.pitch_yaw import PitchYaw
 from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist, soft_edge
@@ -25,6 +37,8 @@ SERIAL = PitchYaw()
 # Nearer than this to both joints at 90° the direction of N is round-off.
 LOOSE = 1e-9
 EQUATOR = 'equator'
+# Radius of the sphere that its links are drawn on, m.
+SPHERE = 0.07
 
 
 @dataclass(frozen=True)
@@ -89,6 +103,44 @@ class FiveBar(Wrist):
             raise UnreachableError('The hand cannot cross the equator; turn it back.', EQUATOR)
         return after
 
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return a forearm with two drives, and four links of 90°; the hand is the third."""
+        theta_1, theta_2 = positions
+        pose = self.forward(positions)
+        second = about_x(-theta_2)
+        along, toward = to_forearm(pose.quaternion, body.Z), to_forearm(second, body.Y)
+        coupled = Pose(quaternion_of((cross(toward, along), toward, along)))
+        left, back = (0.0, -SPHERE, 0.0), (-SPHERE, 0.0, 0.0)
+        first_drive, second_drive = Pin('theta_1', left, body.Y), Pin('theta_2', back, body.BACK)
+        first_elbow = Pin('first_elbow', (SPHERE, 0.0, 0.0), body.X)
+        second_elbow = Pin('second_elbow', (0.0, SPHERE, 0.0), body.Y)
+        top = Pin('top', (0.0, 0.0, SPHERE), body.Z)
+        drives = (
+            _link(left, body.X),
+            _link(back, body.RIGHT),
+            Rod((0.0, -1.3 * SPHERE, 0.0), left, 0.01),
+            Rod((-1.3 * SPHERE, 0.0, 0.0), back, 0.01),
+            Rod((0.0, 0.0, -2.0 * SPHERE), (0.0, 0.0, -SPHERE), 0.006),
+        )
+        return (
+            Body('forearm', body.AT_REST, drives, (first_drive, second_drive)),
+            Body(
+                'link_1',
+                Pose(about_y(theta_1)),
+                (_link(left, body.Z),),
+                (first_drive, first_elbow),
+            ),
+            Body('link_2', Pose(second), (_link(back, body.DOWN),), (second_drive, second_elbow)),
+            Body('link_4', coupled, (_link(second_elbow.point, body.X),), (second_elbow, top)),
+            body.hand(
+                pose,
+                (first_elbow, top),
+                _link(first_elbow.point, body.RIGHT),
+                pointing=body.Z,
+                palm=SPHERE,
+            ),
+        )
+
     @staticmethod
     def _serial(positions: Sequence[float]) -> tuple[float, float]:
         """Return the pitch-yaw pointer's θ1 and θ2 for the same pose."""
@@ -96,7 +148,8 @@ class FiveBar(Wrist):
         s, c = math.cos(theta_1) * math.sin(theta_2), math.cos(theta_2)
         if math.hypot(s, c) < LOOSE:
             raise UnreachableError(
-                'With both joints at 90 deg the hand is loose; turn one of them back.', EQUATOR
+                'With both joints at 90 deg the hand is loose; turn one of them back.',
+                EQUATOR,
             )
         return (math.atan2(-s, c), theta_1)
 
@@ -107,6 +160,11 @@ class FiveBar(Wrist):
         s2, c2 = math.sin(positions[1]), math.cos(positions[1])
         square = c2 * c2 + s2 * s2 * c1 * c1
         return (s1 * s2 * c2 / square, -c1 / square)
+
+
+def _link(begin: Vector, axis: Vector) -> Arc:
+    """Return a link of 90°, from a point on about an axis."""
+    return Arc((0.0, 0.0, 0.0), begin, axis, 0.5 * math.pi)
 
 
 def _height(pose: Pose) -> float:

@@ -9,7 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from wrist_control.rotations import Pose, Vector, about_z, product
+from wrist_control.rotations import Pose, Vector, about_y, about_z, product
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.dimension import dimension
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.three_gimbal import ThreeGimbal
@@ -21,6 +23,9 @@ INNER = ThreeGimbal()
 SIDE = -1e-9
 # α̇ alone may not use up the rest of any joint's range in less than this, s.
 CUSHION = 0.25
+# It is drawn with a fork, a ring, and two forks inside it of these radii, m: forks that are open
+# to the front leave the hand room to turn.
+FORK, OUTER, MIDDLE, INMOST = 0.096, 0.084, 0.072, 0.058
 
 
 @dataclass(frozen=True)
@@ -94,6 +99,29 @@ class FourGimbal(Wrist):
     def lost_axis(self, positions: Sequence[float]) -> Vector:
         """Return the rotation that ψ, θ and φ find hardest to make, in hand axes."""
         return self.hardest_rotation(self.jacobian(positions)[:, :3])
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return a forearm with a fork, a ring, two forks inside it, and the hand."""
+        psi, theta, _, _ = positions
+        turned_by_psi = about_z(psi)
+        turned_by_theta = product(turned_by_psi, about_y(theta))
+        first = Pin('psi', (0.0, 0.0, FORK), body.Z)
+        second = Pin('theta', (0.0, OUTER, 0.0), body.Y)
+        third = Pin('phi', (-MIDDLE, 0.0, 0.0), body.X)
+        fourth = Pin('alpha', (0.0, 0.0, INMOST), body.Z)
+        stem = Rod((-2.0 * FORK, 0.0, 0.0), (-FORK, 0.0, 0.0), 0.006)
+        fork = (body.yoke(first.point, body.BACK), stem)
+        outer = body.gimbal(body.ring(body.X, (0.0, 0.0, OUTER)), body.Z, FORK)
+        middle = body.gimbal(body.yoke((0.0, MIDDLE, 0.0), body.BACK), body.Y, OUTER)
+        inner = (body.yoke(fourth.point, body.BACK), Rod(third.point, (-INMOST, 0.0, 0.0)))
+        axle = Rod((0.0, 0.0, -INMOST), fourth.point)
+        return (
+            Body('forearm', body.AT_REST, fork, (first,)),
+            Body('outer_gimbal', Pose(turned_by_psi), outer, (first, second)),
+            Body('middle_gimbal', Pose(turned_by_theta), middle, (second, third)),
+            Body('inner_gimbal', INNER.forward(positions[:3]), inner, (third, fourth)),
+            body.hand(self.forward(positions), (fourth,), axle),
+        )
 
     def _alpha_rate(self, positions: Sequence[float]) -> tuple[float, float]:
         """Return α̇ by Barker's law, rad/s, and the share of it that the joints have space for.

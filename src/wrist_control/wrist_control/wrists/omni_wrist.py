@@ -10,11 +10,28 @@ from typing import ClassVar
 import numpy as np
 
 from wrist_control.errors import UnreachableError
-from wrist_control.rotations import Pose, Vector, about_x, conjugate, nearest_turn, product
-from wrist_control.wrists.double_hooke import LOCK, nearest_half_turn, shaft_length
+from wrist_control.rotations import (
+    Pose,
+    Vector,
+    about_x,
+    about_y,
+    about_z,
+    conjugate,
+    cross,
+    nearest_turn,
+    product,
+    to_hand,
+)
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Arc, Body, Pin, Rod, Shape
+from wrist_control.wrists.double_hooke import LOCK, DoubleHooke, nearest_half_turn, shaft_length
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.single_hooke import cone, cone_half_angle
 from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist
+
+# Radii of the slotted bows that the drives are drawn as, as shares of the shaft's length, and half
+# the width of their slots, m.
+THETA_BOW, PSI_BOW, SLOT = 0.5, 0.6, 0.007
 
 
 @dataclass(frozen=True)
@@ -119,6 +136,45 @@ class OmniWrist(Wrist):
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
         """Return what is left inside the cone of the intermediate shaft."""
         return (cone(shaft(positions)[0], self.cone_half_angle),)
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return the double Hooke wrist's bodies, and two slotted bows that hold its shaft."""
+        phi, theta_a, psi_a = positions
+        x, y, z = to_hand(about_x(phi), shaft(positions))
+        inside = DoubleHooke(shaft_length=self.shaft_length)
+        forearm, *moving = inside.bodies((phi, math.atan2(-z, x), math.asin(y)))
+        pitch = Pin('theta_a', (0.0, THETA_BOW * self.shaft_length, 0.0), body.Y)
+        yaw = Pin('psi_a', (0.0, 0.0, PSI_BOW * self.shaft_length), body.Z)
+        bearings = (body.yoke(pitch.point, body.BACK), body.yoke(yaw.point, body.BACK))
+        return (
+            forearm._replace(
+                shapes=(*forearm.shapes, *bearings), pins=(*forearm.pins, pitch, yaw)
+            ),
+            Body(
+                'theta_drive', Pose(about_y(theta_a)), slotted_bow(pitch.point, body.Z), (pitch,)
+            ),
+            Body('psi_drive', Pose(about_z(psi_a)), slotted_bow(yaw.point, body.Y), (yaw,)),
+            *moving,
+        )
+
+
+def slotted_bow(end: Vector, across: Vector) -> tuple[Shape, ...]:
+    """Return two bars side by side, from a point over +x to its opposite, joined at their ends.
+
+    Args:
+        end: Where the bow begins, m.
+        across: Unit vector across its slot.
+    """
+    length = math.hypot(*end)
+    axis = cross(body.scaled(end, 1.0 / length), body.X)
+    opposite = body.scaled(end, -1.0)
+    return (
+        *(Arc(body.scaled(across, side), end, axis, math.pi) for side in (-SLOT, SLOT)),
+        *(
+            Rod(body.moved(tip, across, -SLOT), body.moved(tip, across, SLOT))
+            for tip in (end, opposite)
+        ),
+    )
 
 
 def shaft(positions: Sequence[float]) -> Vector:

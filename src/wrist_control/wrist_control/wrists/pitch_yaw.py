@@ -22,12 +22,16 @@ from wrist_control.rotations import (
     to_forearm,
     turned,
 )
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Positions, Rates, Wrist
 
 # Orientations this far from the mechanism's own, rad, still count as its own: far beyond
 # round-off, and far below what a person would call a roll.
 TOLERANCE = 1e-6
+# It is drawn with a fork and a ring of these radii, m.
+FORK, RING = 0.072, 0.058
 
 
 @dataclass(frozen=True)
@@ -79,6 +83,25 @@ class PitchYaw(Wrist):
         found = self._pointed(pose, turned(pose.quaternion, (p, q, 0.0), dt))
         roll = rates_between(pose.quaternion, found.quaternion, dt)[2]
         return self._pointed(pose, turned(pose.quaternion, (p, q, roll), dt))
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return a forearm with a fork, a ring and the hand, which points along z."""
+        _, theta_2 = positions
+        first, second = (
+            Pin('theta_2', (0.0, FORK, 0.0), body.Y),
+            Pin('theta_1', (RING, 0.0, 0.0), body.X),
+        )
+        fork = (
+            body.yoke(first.point, body.DOWN),
+            Rod((0.0, 0.0, -2.0 * FORK), (0.0, 0.0, -FORK), 0.006),
+        )
+        held = body.gimbal(body.ring(body.Z, (0.0, RING, 0.0)), body.Y, FORK)
+        axle = Rod((-RING, 0.0, 0.0), second.point)
+        return (
+            Body('forearm', body.AT_REST, fork, (first,)),
+            Body('ring', Pose(about_y(theta_2)), held, (first, second)),
+            body.hand(self.forward(positions), (second,), axle, pointing=body.Z),
+        )
 
     def _pointed(self, pose: Pose, aim: Quaternion) -> Pose:
         """Return the pose nearest to another, of the two that point as the aim does."""

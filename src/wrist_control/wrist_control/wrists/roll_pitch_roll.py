@@ -10,6 +10,8 @@ from typing import ClassVar
 import numpy as np
 
 from wrist_control.rotations import Pose, about_x, about_y, product
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.three_gimbal import ThreeGimbal
 from wrist_control.wrists.wrist import Positions, Rates, Wrist
@@ -19,6 +21,8 @@ from wrist_control.wrists.wrist import Positions, Rates, Wrist
 BENT = ThreeGimbal()
 BEND = -0.5 * math.pi
 TO_BENT = about_y(BEND)
+# It is drawn with a fork this long and half as wide, m.
+FORK = 0.06
 
 
 @dataclass(frozen=True)
@@ -73,3 +77,32 @@ class RollPitchRoll(Wrist):
     def margin(self, positions: Sequence[float]) -> float:
         """Return |sin θ5|."""
         return abs(math.sin(positions[1]))
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return a forearm, a fork, a knuckle in it, and the hand."""
+        first, second, _ = positions
+        rolled = about_x(first)
+        pitched = product(rolled, about_y(second))
+        side = 0.5 * FORK
+        theta_4, theta_5 = (
+            Pin('theta_4', (-2.0 * FORK, 0.0, 0.0), body.X),
+            Pin('theta_5', (0.0, side, 0.0), body.Y),
+        )
+        theta_6 = Pin('theta_6', (side, 0.0, 0.0), body.X)
+        arm = Rod((-4.0 * FORK, 0.0, 0.0), theta_4.point, 0.018)
+        fork = (
+            Rod(theta_4.point, (-FORK, 0.0, 0.0), 0.012),
+            Rod((-FORK, -side, 0.0), (-FORK, side, 0.0)),
+            Rod((-FORK, -side, 0.0), (0.0, -side, 0.0)),
+            Rod((-FORK, side, 0.0), theta_5.point),
+        )
+        knuckle = (
+            Rod((0.0, -side, 0.0), theta_5.point, 0.006),
+            Rod((0.0, 0.0, 0.0), theta_6.point, 0.008),
+        )
+        return (
+            Body('forearm', body.AT_REST, (arm,), (theta_4,)),
+            Body('fork', Pose(rolled), fork, (theta_4, theta_5)),
+            Body('knuckle', Pose(pitched), knuckle, (theta_5, theta_6)),
+            body.hand(self.forward(positions), (theta_6,), palm=side),
+        )

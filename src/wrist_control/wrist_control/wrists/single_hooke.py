@@ -10,6 +10,8 @@ from typing import ClassVar
 import numpy as np
 
 from wrist_control.rotations import Pose, about_x, about_y, about_z, conjugate, product
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.dimension import dimension
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.three_gimbal import ThreeGimbal
@@ -17,6 +19,8 @@ from wrist_control.wrists.wrist import Clearance, Positions, Rates, Wrist
 
 # Seen from the hand, a Hooke joint is a three-gimbal wrist that turns the other way.
 SEEN_FROM_HAND = ThreeGimbal()
+# It is drawn with yokes of this radius, m.
+YOKE = 0.04
 
 
 def cone_half_angle() -> float:
@@ -36,6 +40,41 @@ def cone(cos_bend: float, half_angle: float) -> Clearance:
     [McKinney1988], eq. (6), with cos β = cos θ cos ψ.
     """
     return Clearance('cone', cos_bend - math.cos(half_angle))
+
+
+def driven_cross(phi: float, theta: float, radius: float) -> tuple[Body, Body, Body]:
+    """Return a forearm, the shaft that rolls in it, and the cross that it drives.
+
+    Args:
+        phi: How far the shaft is rolled about x, rad.
+        theta: How far the cross is turned in it about y, rad.
+        radius: Of the yokes, m; the cross has a pin `psi` for the next one.
+    """
+    rolled = about_x(phi)
+    roll, bend = (
+        Pin('phi', (-2.0 * radius, 0.0, 0.0), body.X),
+        Pin('theta', (0.0, radius, 0.0), body.Y),
+    )
+    sleeve = Rod((-4.0 * radius, 0.0, 0.0), roll.point, 0.25 * radius)
+    driver = (Rod(roll.point, (-radius, 0.0, 0.0)), body.yoke(bend.point, body.BACK))
+    return (
+        Body('forearm', body.AT_REST, (sleeve,), (roll,)),
+        Body('driver', Pose(rolled), driver, (roll, bend)),
+        Body(
+            'cross',
+            Pose(product(rolled, about_y(theta))),
+            cross_rods(radius),
+            (bend, Pin('psi', (0.0, 0.0, radius), body.Z)),
+        ),
+    )
+
+
+def cross_rods(radius: float) -> tuple[Rod, Rod]:
+    """Return the cross of a Hooke joint, along y and z."""
+    return (
+        Rod((0.0, -radius, 0.0), (0.0, radius, 0.0)),
+        Rod((0.0, 0.0, -radius), (0.0, 0.0, radius)),
+    )
 
 
 @dataclass(frozen=True)
@@ -85,3 +124,14 @@ class SingleHooke(Wrist):
         """Return what is left inside the cone of the driven shaft."""
         _, theta, psi = positions
         return (cone(math.cos(theta) * math.cos(psi), self.cone_half_angle),)
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return a forearm, the driver shaft, the cross and the hand."""
+        phi, theta, _ = positions
+        third = Pin('psi', (0.0, 0.0, YOKE), body.Z)
+        return (
+            *driven_cross(phi, theta, YOKE),
+            body.hand(
+                self.forward(positions), (third,), body.yoke(third.point, body.X), palm=YOKE
+            ),
+        )

@@ -25,6 +25,8 @@ from wrist_control.stewart.geometry import (
     ring,
 )
 from wrist_control.units import INCH
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.dimension import dimension, point_list
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Clearance, Configuration, Rates, Wrist, soft_edge
@@ -207,6 +209,36 @@ class Stewart(Wrist):
         x, y, z = np.linalg.svd(lines)[2][-1, 3:]
         norm = math.sqrt(x * x + y * y + z * z)
         return (float(x / norm), float(y / norm), float(z / norm)) if norm else (0.0, 0.0, 1.0)
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return the base, a cylinder and a rod for each leg, and the hand: the platform."""
+        pose = self.forward(positions)
+        bar = 0.03 * self.size
+        base, links, top = [], [], []
+        for leg, (b, p, home) in enumerate(zip(self.base, self.platform, self.home, strict=True)):
+            foot, slide, head = (f'{name}_{leg + 1}' for name in ('base', 'leg', 'platform'))
+            end = pose.point(p)
+            turn = body.turn_of_z((end[0] - b[0], end[1] - b[1], end[2] - b[2]))
+            sliding = Pin(slide, body.ORIGIN, body.Z, slides=True)
+            base.append(Pin(foot, b))
+            top.append(Pin(head, p))
+            for name, at, joint, tip, radius in (
+                (f'cylinder_{leg + 1}', b, foot, 0.55 * home, bar),
+                (f'rod_{leg + 1}', end, head, -0.6 * home, 0.5 * bar),
+            ):
+                tube = Rod(body.ORIGIN, (0.0, 0.0, tip), radius)
+                links.append(
+                    Body(name, Pose(turn, at), (tube,), (Pin(joint, body.ORIGIN), sliding))
+                )
+        return (
+            Body(
+                'forearm', body.AT_REST, body.frame([pin.point for pin in base], bar), tuple(base)
+            ),
+            *links,
+            body.hand(
+                pose, tuple(top), *body.frame([pin.point for pin in top], bar), pointing=body.Z
+            ),
+        )
 
     def _assembled(self, positions: Sequence[float]) -> LegConfiguration:
         if isinstance(positions, LegConfiguration):

@@ -18,6 +18,8 @@ from wrist_control.rotations import (
     nearest_turn,
     product,
 )
+from wrist_control.wrists import body
+from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.wrist import Positions, Rates, Wrist
 
@@ -25,6 +27,8 @@ from wrist_control.wrists.wrist import Positions, Rates, Wrist
 LOCK = 1e-9
 # Two branches that differ by less than this are a tie, won by the one with cos θ > 0.
 TIE = 1e-6
+# It is drawn with a fork, an outer and an inner ring of these radii, m.
+FORK, OUTER, INNER = 0.084, 0.072, 0.058
 
 
 @dataclass(frozen=True)
@@ -79,3 +83,27 @@ class ThreeGimbal(Wrist):
     def margin(self, positions: Sequence[float]) -> float:
         """Return |cos θ|: Barker's measure of the distance to lock."""
         return abs(math.cos(positions[1]))
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return a forearm with a fork, two rings and the hand."""
+        psi, theta, _ = positions
+        turned_by_psi = about_z(psi)
+        turned_by_theta = product(turned_by_psi, about_y(theta))
+        first, second = (
+            Pin('psi', (0.0, 0.0, FORK), body.Z),
+            Pin('theta', (0.0, OUTER, 0.0), body.Y),
+        )
+        third = Pin('phi', (INNER, 0.0, 0.0), body.X)
+        fork = (
+            body.yoke(first.point, body.BACK),
+            Rod((-2.0 * FORK, 0.0, 0.0), (-FORK, 0.0, 0.0), 0.006),
+        )
+        outer = body.gimbal(body.ring(body.X, (0.0, 0.0, OUTER)), body.Z, FORK)
+        inner = body.gimbal(body.ring(body.Z, (0.0, INNER, 0.0)), body.Y, OUTER)
+        axle = Rod((-INNER, 0.0, 0.0), third.point)
+        return (
+            Body('forearm', body.AT_REST, fork, (first,)),
+            Body('outer_gimbal', Pose(turned_by_psi), outer, (first, second)),
+            Body('inner_gimbal', Pose(turned_by_theta), inner, (second, third)),
+            body.hand(self.forward(positions), (third,), axle),
+        )

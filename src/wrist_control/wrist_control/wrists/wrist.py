@@ -13,6 +13,7 @@ import numpy as np
 
 from wrist_control.rotations import Pose, Vector, turned
 from wrist_control.wrists import joint as joint_limits
+from wrist_control.wrists.body import Body, plain_bodies
 from wrist_control.wrists.dimension import Dimension, PointList, dimensions_of, point_lists_of
 from wrist_control.wrists.joint import Joint, Limits
 
@@ -237,6 +238,17 @@ class Wrist(ABC):
             UnreachableError: The mechanism cannot be assembled there, or it is not sure how.
         """
         return tuple(positions)
+
+    def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
+        """Return what a person sees of the mechanism: the forearm first, the hand last.
+
+        A wrist overrides it to show more than those two. Shapes and pins stay as they are in
+        their bodies' axes: only the bodies' poses depend on the joints.
+
+        Raises:
+            UnreachableError: The mechanism cannot be assembled at these positions.
+        """
+        return plain_bodies(self.forward(positions))
 
     def lost_axis(self, positions: Sequence[float]) -> Vector:
         """Return the rotation on command that is hardest to make, a unit vector in hand axes."""

@@ -1,0 +1,210 @@
+"""What a person sees of a mechanism: rigid bodies, what they look like, and what joins them.
+
+Every shape and every pin is given in its body's own axes, so that only a body's pose changes when
+the joints move. All that draws a wrist (markers, pictures, pages) draws this.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
+
+from wrist_control.rotations import IDENTITY, Pose, Quaternion, Vector, about_x, cross, unit
+from wrist_control.units import INCH
+
+# Radius of the bars that a wrist without dimensions of its own is drawn with, m.
+BAR = 0.003
+# [Barker1986]: the hand holds a probe of 6 in.
+PROBE_LENGTH = 6.0 * INCH
+
+X: Vector = (1.0, 0.0, 0.0)
+Y: Vector = (0.0, 1.0, 0.0)
+Z: Vector = (0.0, 0.0, 1.0)
+BACK: Vector = (-1.0, 0.0, 0.0)
+RIGHT: Vector = (0.0, -1.0, 0.0)
+DOWN: Vector = (0.0, 0.0, -1.0)
+ORIGIN: Vector = (0.0, 0.0, 0.0)
+AT_REST = Pose(IDENTITY)
+
+
+class Rod(NamedTuple):
+    """A round bar from one point to another, m; a short thick one is a disc."""
+
+    begin: Vector
+    end: Vector
+    radius: float = BAR
+
+
+class Arc(NamedTuple):
+    """A round bar bent to a part of a circle, or to a whole ring.
+
+    Attributes:
+        centre: Centre of the circle, m.
+        begin: From the centre to where the bar begins, m.
+        axis: Unit vector about which the bar runs on from there.
+        angle: How far it runs, rad; 2π is a ring.
+        radius: Radius of the bar, m.
+    """
+
+    centre: Vector
+    begin: Vector
+    axis: Vector
+    angle: float
+    radius: float = BAR
+
+
+class Ball(NamedTuple):
+    """A ball, m."""
+
+    centre: Vector
+    radius: float
+
+
+class Plate(NamedTuple):
+    """A flat plate: its corners in order around it, and its thickness, m."""
+
+    corners: tuple[Vector, ...]
+    thickness: float
+
+
+Shape: TypeAlias = Rod | Arc | Ball | Plate
+
+
+class Pin(NamedTuple):
+    """Where a body is joined to the one other body that has a pin of the same name.
+
+    The pins of both bodies are at the same place and have the same axis, whatever the joints do.
+    A pin that is named like a driven joint moves by that joint's position.
+
+    Attributes:
+        name: Names the pair.
+        point: Where it is, body axes, m.
+        axis: Unit vector that both bodies turn about, body axes; None for a ball joint.
+        slides: The bodies do not turn but slide along the axis.
+    """
+
+    name: str
+    point: Vector
+    axis: Vector | None = None
+    slides: bool = False
+
+
+class Body(NamedTuple):
+    """One rigid body of a mechanism.
+
+    Attributes:
+        name: What it is called, lower case with underscores.
+        pose: Where it is in the forearm frame.
+        shapes: What it looks like, body axes.
+        pins: What joins it to others, body axes.
+    """
+
+    name: str
+    pose: Pose
+    shapes: tuple[Shape, ...]
+    pins: tuple[Pin, ...] = ()
+
+
+def scaled(vector: Vector, factor: float) -> Vector:
+    """Return a vector made longer or shorter."""
+    x, y, z = vector
+    return (factor * x, factor * y, factor * z)
+
+
+def moved(point: Vector, along: Vector, distance: float) -> Vector:
+    """Return a point moved along a unit vector by a distance, m."""
+    x, y, z = scaled(along, distance)
+    return (point[0] + x, point[1] + y, point[2] + z)
+
+
+def ring(normal: Vector, begin: Vector, radius: float = BAR) -> Arc:
+    """Return a whole ring around the origin, square to a unit vector, through a point."""
+    return Arc(ORIGIN, begin, normal, math.tau, radius)
+
+
+def yoke(end: Vector, middle: Vector, radius: float = BAR) -> Arc:
+    """Return half a ring around the origin, from a point by way of another to its opposite.
+
+    Args:
+        end: Where it begins, m.
+        middle: Unit vector to its middle, square to `end`.
+        radius: Radius of the bar, m.
+    """
+    length = math.hypot(*end)
+    return Arc(ORIGIN, end, cross(scaled(end, 1.0 / length), middle), math.pi, radius)
+
+
+def gimbal(ring_or_yoke: Arc, axle: Vector, reach: float) -> tuple[Shape, ...]:
+    """Return a ring or a yoke with the two stubs that it turns on.
+
+    Args:
+        ring_or_yoke: Around the origin, through where the stubs begin.
+        axle: Unit vector along the stubs.
+        reach: Where the stubs end, m from the origin.
+    """
+    radius = math.hypot(*ring_or_yoke.begin)
+    return (
+        ring_or_yoke,
+        Rod(scaled(axle, radius), scaled(axle, reach)),
+        Rod(scaled(axle, -radius), scaled(axle, -reach)),
+    )
+
+
+def frame(points: Sequence[Vector], radius: float) -> tuple[Shape, ...]:
+    """Return a frame of rods around points that lie about the z axis, each with a ball on it.
+
+    Args:
+        points: Where the balls are, m, in any order.
+        radius: Radius of the rods, m.
+    """
+    around = sorted(points, key=lambda point: math.atan2(point[1], point[0]))
+    rods = [Rod(a, b, radius) for a, b in zip(around, [*around[1:], around[0]], strict=True)]
+    return (*rods, *(Ball(point, 1.6 * radius) for point in around))
+
+
+def turn_of_z(direction: Vector) -> Quaternion:
+    """Return the shortest turn that takes the z axis to a direction of any length."""
+    x, y, z = direction
+    length = math.hypot(x, y, z)
+    w = z + length
+    # Straight down there is no shortest one.
+    return unit((w, 0.0, x, -y)) if math.hypot(w, x, y) > 1e-9 * length else about_x(math.pi)
+
+
+def hand(
+    pose: Pose, pins: tuple[Pin, ...], *held_by: Shape, pointing: Vector = X, palm: float = 0.0
+) -> Body:
+    """Return the hand: a palm, a probe, and a thumb that shows which way it is rolled.
+
+    Args:
+        pose: Where it is, forearm frame.
+        pins: What joins it to others, hand axes.
+        held_by: What else belongs to it, hand axes.
+        pointing: Unit vector along the probe, hand axes.
+        palm: Where along the probe the palm is, m.
+    """
+    tip, joint = scaled(pointing, PROBE_LENGTH), scaled(pointing, 0.6 * PROBE_LENGTH)
+    thumb = X if pointing == Z else Z
+    return Body(
+        'hand',
+        pose,
+        (
+            *held_by,
+            Rod(scaled(pointing, palm - BAR), scaled(pointing, palm + BAR), 6.0 * BAR),
+            Rod(scaled(pointing, palm), tip),
+            Rod(joint, moved(joint, thumb, 0.15 * PROBE_LENGTH)),
+            Ball(tip, 2.0 * BAR),
+        ),
+        pins,
+    )
+
+
+def plain_bodies(pose: Pose) -> tuple[Body, ...]:
+    """Return a forearm and a hand alone: a wrist that says no more of itself.
+
+    Args:
+        pose: Where the hand is, forearm frame.
+    """
+    forearm = Body('forearm', AT_REST, (Rod((-PROBE_LENGTH, 0.0, 0.0), ORIGIN, 2.0 * BAR),))
+    return (forearm, hand(pose, ()))
