@@ -26,8 +26,12 @@ class Terminal:
         """Look from here on at what is printed later."""
         self._seen = len(self._log.read_text())
 
+    @property
+    def page(self):
+        return self._log.read_text()[self._seen :]
+
     def shows(self, pattern):
-        return pattern.search(self._log.read_text(), self._seen)
+        return pattern.search(self.page)
 
     def end(self):
         if self.process.poll() is None:
@@ -38,7 +42,7 @@ class Terminal:
 def wait_until_shown(shown, terminals, limit=60.0):
     end = time.monotonic() + limit
     while not any(terminal.shows(printed(shown)) for terminal in terminals):
-        assert time.monotonic() < end, shown
+        assert time.monotonic() < end, '\n---\n'.join([shown, *(t.page for t in terminals)])
         time.sleep(0.1)
 
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from wrist_control import WRISTS, InvalidValueError, fly, make_maneuver, make_wrist
-from wrist_control.flight import PROBE
 from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, Segment, stick, turn
 from wrist_control.resolving import start, step
+from wrist_control.wrists.body import ALONG_X
 
 H = 1.0 / 32.0
 SHORT = Maneuver('short', (turn(1, 0.3, BARKER_SPEED), turn(2, 0.2, BARKER_SPEED)))
@@ -92,7 +92,7 @@ def test_the_tip_is_the_end_of_the_probe_in_forearm_axes():
     turned = np.einsum('nji,j->ni', flight.hand_rotation, probe)  # Cᵀ takes it to the forearm
     np.testing.assert_allclose(flight.tip, flight.hand_position + turned, atol=1e-14)
     assert np.abs(flight.hand_position).max() > 0.01
-    assert pytest.approx((0.1524, 0.0, 0.0)) == PROBE
+    assert pytest.approx((0.1524, 0.0, 0.0)) == ALONG_X
 
 
 def test_the_operator_waits_for_a_hand_that_is_slow():
@@ -119,7 +119,7 @@ def test_an_operator_who_does_not_wait_ends_in_time_however_slow_the_hand():
 
 def test_any_number_of_steps_per_second_ends_where_the_maneuver_ends():
     ends = [fly('three_gimbal', 'basic_test', rate).tip[-1] for rate in (7.0, 32.0, 100.0)]
-    np.testing.assert_allclose(ends, [(0.0, PROBE[0], 0.0)] * 3, atol=1e-12)
+    np.testing.assert_allclose(ends, [(0.0, ALONG_X[0], 0.0)] * 3, atol=1e-12)
 
 
 def test_a_flight_that_loses_too_much_time_is_given_up_and_says_so():

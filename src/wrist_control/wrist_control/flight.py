@@ -15,11 +15,8 @@ from wrist_control.operating.pilot import ManeuverClock
 from wrist_control.resolving import State, Step, start, step
 from wrist_control.resolving.state import ZERO_TWIST
 from wrist_control.rotations import Pose, Vector, to_forearm
-from wrist_control.units import INCH
 from wrist_control.wrists import Wrist, make_wrist
-
-# [Barker1986]: a 6-in. probe along the hand's x axis.
-PROBE = (6.0 * INCH, 0.0, 0.0)
+from wrist_control.wrists.body import ALONG_X
 
 
 class Row(NamedTuple):
@@ -96,7 +93,7 @@ class Flight:
         dt: float,
         rows: Sequence[Row],
         *,
-        probe: Vector = PROBE,
+        probe: Vector = ALONG_X,
         completed: bool = True,
     ) -> Flight:
         """Return a flight of equal steps.
@@ -139,7 +136,7 @@ def fly(
     joint_acceleration_limits: float | Sequence[float] | None = None,
     joint_deceleration_limits: float | Sequence[float] | None = None,
     initial_positions: Sequence[float] | None = None,
-    probe: Vector = PROBE,
+    probe: Vector = ALONG_X,
     patience: float = 30.0,
     progress: Callable[[float], object] | None = None,
     **dimensions: Any,

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from wrist_control import fly
-from wrist_control.flight import PROBE
 from wrist_control.operating.maneuvers import BARKER_SPEED
 from wrist_control.studies.barker import (
     angle_from_vertical,
@@ -16,10 +15,11 @@ from wrist_control.studies.barker import (
     three_gimbal_table,
     tip_error,
 )
+from wrist_control.wrists.body import ALONG_X
 
 H = 1.0 / 32.0
 EPSILON = 0.001  # ε0: nearer to lock than this, steps are made in the joints
-LENGTH = PROBE[0]
+LENGTH = ALONG_X[0]
 LOCKED = 90  # the step at which the probe points down: 1° for each
 
 

@@ -55,11 +55,12 @@ def test_a_frame_goes_around_its_points_in_any_order():
 
 def test_a_hand_points_along_its_probe_and_its_thumb_shows_its_roll():
     pose = Pose(about_z(0.3), (0.1, 0.0, 0.0))
-    for pointing, thumb in ((body.X, 2), (body.Z, 0)):
-        palm, probe, finger, tip = body.hand(pose, (), pointing=pointing, palm=0.02).shapes
-        assert tip.centre == probe.end == body.scaled(pointing, body.PROBE_LENGTH)
-        assert probe.begin == body.scaled(pointing, 0.02)
-        np.testing.assert_allclose(np.add(palm.begin, palm.end) / 2.0, probe.begin, atol=1e-15)
+    for probe, thumb in ((body.ALONG_X, 2), (body.ALONG_Z, 0)):
+        palm, bar, finger, tip = body.hand(pose, (), probe=probe, palm=0.02).shapes
+        assert tip.centre == bar.end == probe
+        assert math.hypot(*bar.begin) == pytest.approx(0.02)
+        np.testing.assert_allclose(np.cross(bar.begin, probe), 0.0, atol=1e-15)
+        np.testing.assert_allclose(np.add(palm.begin, palm.end) / 2.0, bar.begin, atol=1e-15)
         assert np.flatnonzero(np.subtract(finger.end, finger.begin)).tolist() == [thumb]
 
 

@@ -17,6 +17,8 @@ from wrist_control.units import INCH
 BAR = 0.003
 # [Barker1986]: the hand holds a probe of 6 in.
 PROBE_LENGTH = 6.0 * INCH
+ALONG_X: Vector = (PROBE_LENGTH, 0.0, 0.0)
+ALONG_Z: Vector = (0.0, 0.0, PROBE_LENGTH)
 
 X: Vector = (1.0, 0.0, 0.0)
 Y: Vector = (0.0, 1.0, 0.0)
@@ -173,7 +175,7 @@ def turn_of_z(direction: Vector) -> Quaternion:
 
 
 def hand(
-    pose: Pose, pins: tuple[Pin, ...], *held_by: Shape, pointing: Vector = X, palm: float = 0.0
+    pose: Pose, pins: tuple[Pin, ...], *held_by: Shape, probe: Vector = ALONG_X, palm: float = 0.0
 ) -> Body:
     """Return the hand: a palm, a probe, and a thumb that shows which way it is rolled.
 
@@ -181,30 +183,32 @@ def hand(
         pose: Where it is, forearm frame.
         pins: What joins it to others, hand axes.
         held_by: What else belongs to it, hand axes.
-        pointing: Unit vector along the probe, hand axes.
+        probe: Where the probe ends, hand axes, m.
         palm: Where along the probe the palm is, m.
     """
-    tip, joint = scaled(pointing, PROBE_LENGTH), scaled(pointing, 0.6 * PROBE_LENGTH)
-    thumb = X if pointing == Z else Z
+    length = math.hypot(*probe)
+    along, joint = scaled(probe, 1.0 / length), scaled(probe, 0.6)
+    thumb = X if probe[0] == 0.0 else Z
     return Body(
         'hand',
         pose,
         (
             *held_by,
-            Rod(scaled(pointing, palm - BAR), scaled(pointing, palm + BAR), 6.0 * BAR),
-            Rod(scaled(pointing, palm), tip),
-            Rod(joint, moved(joint, thumb, 0.15 * PROBE_LENGTH)),
-            Ball(tip, 2.0 * BAR),
+            Rod(scaled(along, palm - BAR), scaled(along, palm + BAR), 6.0 * BAR),
+            Rod(scaled(along, palm), probe),
+            Rod(joint, moved(joint, thumb, 0.15 * length)),
+            Ball(probe, 2.0 * BAR),
         ),
         pins,
     )
 
 
-def plain_bodies(pose: Pose) -> tuple[Body, ...]:
+def plain_bodies(pose: Pose, probe: Vector) -> tuple[Body, ...]:
     """Return a forearm and a hand alone: a wrist that says no more of itself.
 
     Args:
         pose: Where the hand is, forearm frame.
+        probe: Where its probe ends, hand axes, m.
     """
     forearm = Body('forearm', AT_REST, (Rod((-PROBE_LENGTH, 0.0, 0.0), ORIGIN, 2.0 * BAR),))
-    return (forearm, hand(pose, ()))
+    return (forearm, hand(pose, (), probe=probe))

@@ -80,6 +80,7 @@ class Carpal(Wrist):
         Joint('theta_3'),
     )
     followed_axes: ClassVar[tuple[int, ...]] = (0, 1)
+    probe: ClassVar[Vector] = body.ALONG_Z
 
     def __post_init__(self) -> None:
         """Check that the legs are long enough for the plunge."""
@@ -238,7 +239,7 @@ class Carpal(Wrist):
         return (
             Body('forearm', body.AT_REST, (plate, stem), tuple(base)),
             *legs,
-            body.hand(pose, tuple(distal), plate, pointing=body.Z),
+            body.hand(pose, tuple(distal), plate, probe=self.probe),
         )
 
     def reach(self, azimuth: float) -> float:

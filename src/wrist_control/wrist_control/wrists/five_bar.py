@@ -50,6 +50,7 @@ class FiveBar(Wrist):
 
     default_joints: ClassVar[tuple[Joint, ...]] = (Joint('theta_1'), Joint('theta_2'))
     followed_axes: ClassVar[tuple[int, ...]] = (0, 1)
+    probe: ClassVar[Vector] = body.ALONG_Z
 
     def forward(self, positions: Sequence[float]) -> Pose:
         """Return the hand's pose, z along (s1 c2, c1 s2, c1 c2), x along the joint after link 1.
@@ -136,7 +137,7 @@ class FiveBar(Wrist):
                 pose,
                 (first_elbow, top),
                 _link(first_elbow.point, body.RIGHT),
-                pointing=body.Z,
+                probe=self.probe,
                 palm=SPHERE,
             ),
         )

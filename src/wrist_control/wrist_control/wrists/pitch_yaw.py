@@ -13,6 +13,7 @@ from wrist_control.errors import UnreachableError
 from wrist_control.rotations import (
     Pose,
     Quaternion,
+    Vector,
     about_x,
     about_y,
     direction_cosines,
@@ -43,6 +44,7 @@ class PitchYaw(Wrist):
 
     default_joints: ClassVar[tuple[Joint, ...]] = (Joint('theta_1'), Joint('theta_2'))
     followed_axes: ClassVar[tuple[int, ...]] = (0, 1)
+    probe: ClassVar[Vector] = body.ALONG_Z
 
     def forward(self, positions: Sequence[float]) -> Pose:
         """Return the hand's pose, C = X(θ1) Y(θ2): its z axis is N of [Canfield1997], (4.30)."""
@@ -100,7 +102,7 @@ class PitchYaw(Wrist):
         return (
             Body('forearm', body.AT_REST, fork, (first,)),
             Body('ring', Pose(about_y(theta_2)), held, (first, second)),
-            body.hand(self.forward(positions), (second,), axle, pointing=body.Z),
+            body.hand(self.forward(positions), (second,), axle, probe=self.probe),
         )
 
     def _pointed(self, pose: Pose, aim: Quaternion) -> Pose:

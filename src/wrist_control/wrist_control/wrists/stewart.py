@@ -101,6 +101,7 @@ class Stewart(Wrist):
         Joint(f'leg_{leg}', 'prismatic', lower=0.0) for leg in range(1, 7)
     )
     twist_size: ClassVar[Literal[3, 6]] = 6
+    probe: ClassVar[Vector] = body.ALONG_Z
 
     def __post_init__(self) -> None:
         """Settle the anchors, and refuse legs that hold the platform at no pose."""
@@ -230,14 +231,13 @@ class Stewart(Wrist):
                 links.append(
                     Body(name, Pose(turn, at), (tube,), (Pin(joint, body.ORIGIN), sliding))
                 )
+        under = body.frame([pin.point for pin in base], bar)
+        over = body.frame([pin.point for pin in top], bar)
+        spokes = [Rod(body.ORIGIN, pin.point, 0.5 * bar) for pin in top]
         return (
-            Body(
-                'forearm', body.AT_REST, body.frame([pin.point for pin in base], bar), tuple(base)
-            ),
+            Body('forearm', body.AT_REST, under, tuple(base)),
             *links,
-            body.hand(
-                pose, tuple(top), *body.frame([pin.point for pin in top], bar), pointing=body.Z
-            ),
+            body.hand(pose, tuple(top), *over, *spokes, probe=self.probe),
         )
 
     def _assembled(self, positions: Sequence[float]) -> LegConfiguration:

@@ -13,7 +13,7 @@ import numpy as np
 
 from wrist_control.rotations import Pose, Vector, turned
 from wrist_control.wrists import joint as joint_limits
-from wrist_control.wrists.body import Body, plain_bodies
+from wrist_control.wrists.body import ALONG_X, Body, plain_bodies
 from wrist_control.wrists.dimension import Dimension, PointList, dimensions_of, point_lists_of
 from wrist_control.wrists.joint import Joint, Limits
 
@@ -103,6 +103,7 @@ class Wrist(ABC):
         twist_size: 3, or 6 for a wrist that also translates on command.
         followed_axes: The hand axes that it turns about on command, 0 to 2 for x, y, z. A pointer
             has (0, 1): its roll is what the mechanism forces.
+        probe: Where the probe that the hand is drawn with ends, hand axes, m.
     """
 
     joints: tuple[Joint, ...] = field(default=(), kw_only=True)
@@ -110,6 +111,7 @@ class Wrist(ABC):
     default_joints: ClassVar[tuple[Joint, ...]] = ()
     twist_size: ClassVar[Literal[3, 6]] = 3
     followed_axes: ClassVar[tuple[int, ...]] = (0, 1, 2)
+    probe: ClassVar[Vector] = ALONG_X
 
     def __post_init__(self) -> None:
         """Check every dimension and settle the joints.
@@ -248,7 +250,7 @@ class Wrist(ABC):
         Raises:
             UnreachableError: The mechanism cannot be assembled at these positions.
         """
-        return plain_bodies(self.forward(positions))
+        return plain_bodies(self.forward(positions), self.probe)
 
     def lost_axis(self, positions: Sequence[float]) -> Vector:
         """Return the rotation on command that is hardest to make, a unit vector in hand axes."""
