@@ -160,8 +160,9 @@ def _lines(axes: Axes, pitch: np.ndarray, found: dict[str, np.ndarray]) -> None:
     axes.annotate('twice the hand rate', (89.0, ALLOWED), ha='right', va='bottom', fontsize=8)
     axes.plot(90.0, found['+r'][-1], 'o', color=COLOURS[0])
     together = same_from(pitch, found)
+    one = '' if together is None else f'\n{", ".join(AXES)} are one from {together:g}° on'
     axes.annotate(
-        'extended test maneuver' + (f'\nfrom {together:g}° on +r, −r, +p, −p are one' if together is not None else ''),
+        f'extended test maneuver{one}',
         (90.0, found['+r'][-1]),
         xytext=(-6, -4),
         textcoords='offset points',
