@@ -26,3 +26,22 @@ def curves():
         return {line.get_label(): line.get_data() for line in lines}
 
     return named
+
+
+@pytest.fixture(scope='session')
+def uncovered():
+    """Check that no legend of a figure lies on a curve, and that nothing of it is cut off."""
+
+    def checked(figure):
+        figure.draw_without_rendering()
+        legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes)]
+        boxes = [legend.get_window_extent() for legend in legends if legend]
+        assert boxes
+        for box in boxes:
+            assert figure.bbox.x0 <= box.x0 < box.x1 <= figure.bbox.x1
+            assert figure.bbox.y0 <= box.y0 < box.y1 <= figure.bbox.y1
+            for line in (line for axes in figure.axes for line in axes.get_lines()):
+                path = line.get_transform().transform_path(line.get_path())
+                assert not path.intersects_bbox(box, filled=False), line.get_label()
+
+    return checked

@@ -43,7 +43,10 @@ def test_figures_9_and_10_show_the_four_gimbals_of_their_flight(figures, curves,
         np.testing.assert_allclose(np.radians(angle), column, atol=1e-12)
 
 
-def test_figure_11_shows_the_peak_rate_of_each_gain_and_where_the_paper_is(figures, curves):
+def test_figure_11_shows_the_peak_rate_of_each_gain_and_where_the_paper_is(
+    figures, curves, uncovered
+):
+    uncovered(figures[1][11])
     (axes,) = figures[1][11].axes
     shown = curves(axes)
     assert list(shown) == ['hand 32 deg/s', 'hand 16 deg/s']

@@ -17,6 +17,7 @@ from wrist_control.studies.barker_worst import (
     peaks,
     pitches,
     plane,
+    same_from,
     spread,
     table,
     worst,
@@ -77,8 +78,9 @@ def test_no_gain_brings_every_peak_to_twice_the_hands_rate(gain):
     assert max(found) > 2.8 * BARKER_SPEED
 
 
-def test_the_curves_drawn_are_what_the_flights_need(drawn, curves):
+def test_the_curves_drawn_are_what_the_flights_need(drawn, curves, uncovered):
     _, found, _, figure = drawn
+    uncovered(figure)
     left = figure.axes[0]
     shown = curves(left)
     assert list(shown) == ['+r', '−r', '+p', '−p', ANY]
@@ -94,6 +96,15 @@ def test_the_curves_drawn_are_what_the_flights_need(drawn, curves):
     assert [points[0, 1] for points in marks if len(points) == 2] == [2.0]
     assert left.get_xlabel() == 'pitch before the turn (deg)'
     assert left.get_ylabel() == 'peak gimbal rate / hand rate'
+
+
+def test_where_all_turns_need_the_same_the_picture_says_so(drawn):
+    pitch, found, _, figure = drawn
+    assert same_from(pitch, found) == pytest.approx(75.0)
+    said = [text.get_text() for text in figure.axes[0].texts]
+    assert 'extended test maneuver\n+r, −r, +p, −p are one from 75° on' in said
+    assert same_from(pitch, {**found, '+p': found['+p'] + 0.02}) is None
+    assert same_from(pitch, dict.fromkeys(AXES, found['+r'])) == 0.0
 
 
 def test_the_map_has_p_and_r_where_its_axis_says(drawn):

@@ -2,15 +2,19 @@
 
 import dataclasses
 import math
+from io import StringIO
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
+from rich.console import Console
 
 from wrist_control import WRISTS, fly, make_wrist
 from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, Segment, make_maneuver, turn
-from wrist_control.studies.compare import HEADINGS, draw, main, markdown, rows, table
+from wrist_control.studies.compare import HEADINGS, draw, main, markdown, notes, rows, table
 from wrist_control.studies.comparison import (
     JOINT_SPEEDS,
+    MANEUVERS,
     Performance,
     about_approach,
     approach_axis,
@@ -119,7 +123,7 @@ def test_lock_costs_the_three_gimbal_wrist_what_the_paper_says_and_the_double_ho
 
 def test_table_and_markdown_show_every_outcome():
     performances = compare(['three_gimbal', 'carpal'], [SHORT])
-    assert table(performances).row_count == 2
+    assert table(performances).row_count == 3
     lines = markdown(performances).splitlines()
     assert lines[0] == '| ' + ' | '.join(HEADINGS) + ' |'
     assert '| short | carpal * |' in lines[3]
@@ -129,7 +133,8 @@ def test_an_unfinished_maneuver_shows_what_stopped_it(tmp_path):
     main(tmp_path, ['single_hooke', 'double_hooke'], [make_maneuver('basic_test')])
     assert (tmp_path / 'compare.png').read_bytes().startswith(b'\x89PNG')
     single, double = (tmp_path / 'compare.md').read_text(encoding='utf-8').splitlines()[2:4]
-    assert 'cone at 1.4 s | no' in single
+    assert '| stopped |' in single
+    assert single.endswith('| cone | 1.4 |')
     assert '| 0.00 |' in double
 
 
@@ -140,33 +145,73 @@ LOST = {'time_lost': 30.0, 'free_peak_rate': 200.0, 'margin': 0.0, 'path_error':
 CELLS = [GOOD, WORSE, STUCK._replace(completed=False, **LOST)]
 
 
+@pytest.mark.parametrize('limit', ['the legs near lock', 'closure of leg 2', ''])
+def test_a_terminal_of_80_columns_has_room_for_every_heading_and_cell(limit):
+    wide = GOOD._replace(stopped_by=limit, stopped_at=59.99, free_peak_rate=90.0)
+    every = [
+        wide._replace(wrist=wrist, maneuver=maneuver.name, follows_roll=False, completed=done)
+        for maneuver in MANEUVERS
+        for wrist in WRISTS
+        for done in (True, False)
+    ]
+    console = Console(width=80, file=StringIO())
+    console.print(table(every))
+    lines = console.file.getvalue().splitlines()
+    assert '…' not in console.file.getvalue()
+    headings = [word for heading in HEADINGS[1:] for word in heading.split()]
+    rule = next(at for at, line in enumerate(lines) if line.startswith('─'))
+    assert sorted(word for line in lines[1:rule] for word in line.split()) == sorted(headings)
+    shown = [line.split() for line in lines[rule + 1 :]]
+    for row in rows(every):
+        assert ' '.join(row[1:]).split() in shown
+    for maneuver in MANEUVERS:
+        assert [maneuver.name] in shown
+
+
 @pytest.fixture(scope='module')
-def panels():
+def picture():
     other = [one._replace(maneuver='stick') for one in CELLS]
-    return draw([*CELLS, *other]).axes
+    return draw([*CELLS, *other])
+
+
+@pytest.fixture(scope='module')
+def panels(picture):
+    return picture.axes[:3]
 
 
 def test_the_picture_has_a_row_for_each_wrist_and_a_column_for_each_maneuver(panels):
     assert [axes.get_title() for axes in panels] == [
         'time lost (s), or what stopped the hand',
-        'peak joint rate without a limit (× the limit)',
-        'path error (deg)',
-        'closest margin (0 at lock)',
+        'peak joint rate without a limit, divided by the limit',
+        'closest margin, 0 at lock: compare within a row',
     ]
-    left, lowest = panels[::2], panels[2:]
-    for axes in left:
+    for axes in panels[::2]:
         assert [text.get_text() for text in axes.get_yticklabels()] == ['a', 'b', 'c *']
-    for axes in lowest:
+    for axes in panels:
         assert [text.get_text() for text in axes.get_xticklabels()] == ['basic\ntest', 'stick']
+
+
+def test_the_picture_says_what_its_marks_are_and_who_left_the_path(picture):
+    (said,) = (text.get_text() for text in picture.axes[3].texts)
+    marks, errors = said.split('\n\n')
+    assert '†  stopped before the end' in marks
+    assert '*  points only' in marks
+    assert errors.splitlines() == [
+        'Path error: less than 0.001° everywhere, but',
+        '    b: up to 0.057°',
+        '    c: up to 57.296°',
+    ]
+    assert notes([GOOD]).endswith('\nPath error: less than 0.001° everywhere.')
+    drawn = [text.get_text() for text in picture.findobj(Text)]
+    assert not [text for text in drawn if '×' in text]
 
 
 @pytest.mark.parametrize(
     ('panel', 'written'),
     [
-        (0, ['0.0', '1.2', 'cone\nat 1.4 s']),
-        (1, ['1.0', '7.0', '200.0 ×']),
-        (2, ['0.000', '0.057', '57.296 ×']),
-        (3, ['1.00', '0.30', '0.00 ×']),
+        (0, ['0.00', '1.24', 'cone\nat 1.4 s']),
+        (1, ['1.0', '7.0', '200.0 †']),
+        (2, ['1.00', '0.30', '0.00 †']),
     ],
 )
 def test_every_cell_says_its_number_and_is_darker_the_worse_it_is(panels, panel, written):

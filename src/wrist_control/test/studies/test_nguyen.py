@@ -7,10 +7,12 @@ from wrist_control.studies import nguyen
 from wrist_control.studies.nguyen_cases import CASES, pose_errors, times, velocity_errors
 
 
-def test_the_six_figures_show_the_errors_of_both_cases_over_time(curves):
+def test_the_six_figures_show_the_errors_of_both_cases_over_time(curves, uncovered):
     figures = dict(nguyen.figures())
     assert list(figures) == [6, 7, 8, 9, 10, 11]
     for case, numbers in zip(CASES, ((6, 7, 8), (9, 10, 11)), strict=True):
+        for number in numbers:
+            uncovered(figures[number])
         panels = [figures[number].axes[0] for number in numbers]
         shown = [curve for axes in panels for curve in curves(axes).values()]
         errors = np.hstack([pose_errors(case)[0], velocity_errors(case)])
@@ -18,9 +20,9 @@ def test_the_six_figures_show_the_errors_of_both_cases_over_time(curves):
             np.testing.assert_allclose(t, times(case))
             np.testing.assert_allclose(y, column)
         assert [axes.get_ylabel() for axes in panels] == [
-            'error (µin.)',
-            'error (µrad)',
-            'error (in./s)',
+            'error of the position (µin.)',
+            'error of the angles (µrad)',
+            'error of the leg rates (in./s)',
         ]
         titles = [f'Fig. {number}. {case.name}' for number in numbers]
         assert [axes.get_title() for axes in panels] == titles

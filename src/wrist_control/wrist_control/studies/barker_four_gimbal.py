@@ -60,13 +60,13 @@ def draw_figure_11(gains: Sequence[float], peaks: np.ndarray) -> Figure:
     )
     axes.axhline(32.0, color='grey', linewidth=0.8)
     axes.annotate(
-        '32 deg/s',
+        '32 deg/s, the limit of figure 8',
         (max(gains), 32.0),
         xytext=(-4, 3),
         textcoords='offset points',
         ha='right',
-        fontsize=8,
-        color='grey',
+        fontsize=9,
+        color='0.3',
     )
     axes.set(
         xlabel='gain K (rad/s)',

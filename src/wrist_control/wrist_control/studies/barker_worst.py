@@ -37,6 +37,8 @@ ANY = 'worst axis found'
 NARROWER = (0.1, 0.05, 0.025, 0.0125)
 # What the paper's conclusion allows: gimbals twice as fast as the hand.
 ALLOWED = 2.0
+# Peaks nearer to each other than this are drawn as one, hand rates.
+ALIKE = 0.01
 
 
 class Map(NamedTuple):
@@ -157,8 +159,10 @@ def _lines(axes: Axes, pitch: np.ndarray, found: dict[str, np.ndarray]) -> None:
     axes.axhline(ALLOWED, color='grey', linewidth=0.8)
     axes.annotate('twice the hand rate', (89.0, ALLOWED), ha='right', va='bottom', fontsize=8)
     axes.plot(90.0, found['+r'][-1], 'o', color=COLOURS[0])
+    together = same_from(pitch, found)
+    one = '' if together is None else f'\n{", ".join(AXES)} are one from {together:g}° on'
     axes.annotate(
-        'extended test maneuver',
+        f'extended test maneuver{one}',
         (90.0, found['+r'][-1]),
         xytext=(-6, -4),
         textcoords='offset points',
@@ -175,6 +179,13 @@ def _lines(axes: Axes, pitch: np.ndarray, found: dict[str, np.ndarray]) -> None:
     )
     axes.grid(alpha=0.3)
     axes.legend(fontsize=9, ncols=2, loc='lower center')
+
+
+def same_from(pitch: np.ndarray, found: dict[str, np.ndarray]) -> float | None:
+    """Return from which pitch on the turns about all axes need the same, deg, or None."""
+    apart = np.flatnonzero(np.ptp([found[name] for name in AXES], axis=0) > ALIKE)
+    first = apart[-1] + 1 if apart.size else 0
+    return math.degrees(pitch[first]) if first < len(pitch) else None
 
 
 def table(pitch: np.ndarray, found: dict[str, np.ndarray]) -> Table:

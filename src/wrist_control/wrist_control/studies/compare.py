@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Sequence
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
@@ -26,6 +29,8 @@ from wrist_control.studies.comparison import (
 from wrist_control.studies.pictures import save
 from wrist_control.wrists import WRISTS
 
+# A number of a maneuver that was not finished, in the picture.
+STOPPED = '†'
 HEADINGS = (
     'maneuver',
     'wrist',
@@ -34,8 +39,8 @@ HEADINGS = (
     'without limit',
     'path error (deg)',
     'closest margin',
-    'first limit of its own',
-    'completed',
+    'first own limit',
+    'at (s)',
 )
 
 
@@ -49,13 +54,13 @@ def rows(performances: Sequence[Performance]) -> list[tuple[str, ...]]:
         (
             o.maneuver,
             _marked(o),
-            f'{o.time_lost:.2f}' if o.completed else '–',
+            f'{o.time_lost:.2f}' if o.completed else 'stopped',
             f'{o.peak_rate:.3f}',
             f'{o.free_peak_rate:.2f}',
-            f'{math.degrees(o.path_error):.4f}',
+            f'{_error(o):.4f}',
             f'{o.margin:.3f}',
-            f'{o.stopped_by} at {o.stopped_at:.1f} s' if o.stopped_by else '',
-            'yes' if o.completed else 'no',
+            o.stopped_by,
+            f'{o.stopped_at:.1f}' if o.stopped_by else '',
         )
         for o in performances
     ]
@@ -72,13 +77,24 @@ def caption() -> str:
 
 
 def table(performances: Sequence[Performance]) -> Table:
-    """Return the comparison as a table for a terminal."""
-    found = Table(title='Every wrist, the same maneuvers', caption=caption())
-    for number, heading in enumerate(HEADINGS):
-        found.add_column(heading, justify='right' if 2 <= number <= 6 else 'left')
-    shown = rows(performances)
-    for row, following in zip(shown, [*shown[1:], ('',)], strict=True):
-        found.add_row(*row, end_section=row[0] != following[0])
+    """Return the comparison as a table that a terminal of 80 columns has room for."""
+    found = Table(
+        title='Every wrist, the same maneuvers',
+        caption=caption(),
+        box=SIMPLE_HEAD,
+        show_edge=False,
+        padding=0,
+    )
+    for heading in HEADINGS[1:]:
+        words = heading in ('wrist', 'first own limit')
+        # Narrow headings leave the width to the cells.
+        lines = heading.replace(' ', '\n')
+        found.add_column(lines, justify='left' if words else 'right', no_wrap=True)
+    for maneuver, group in groupby(rows(performances), key=itemgetter(0)):
+        found.add_section()
+        found.add_row(maneuver, style='bold')
+        for _, *cells in group:
+            found.add_row(*cells)
     return found
 
 
@@ -109,32 +125,57 @@ class Panel(NamedTuple):
 # A shade from which white can be read better than black.
 DARK = 0.75
 PANELS = (
-    Panel('time lost (s), or what stopped the hand', lambda o: o.time_lost, '{:.1f}', 0.01, 10.0),
+    Panel('time lost (s), or what stopped the hand', lambda o: o.time_lost, '{:.2f}', 0.01, 10.0),
     Panel(
-        'peak joint rate without a limit (× the limit)',
+        'peak joint rate without a limit, divided by the limit',
         lambda o: o.free_peak_rate,
         '{:.1f}',
         1.0,
         100.0,
     ),
-    Panel('path error (deg)', lambda o: math.degrees(o.path_error), '{:.3f}', 0.001, 1.0),
-    Panel('closest margin (0 at lock)', lambda o: o.margin, '{:.2f}', 1.0, 0.01),
+    Panel(
+        'closest margin, 0 at lock: compare within a row', lambda o: o.margin, '{:.2f}', 1.0, 0.01
+    ),
 )
+# A path error below this is not worth a panel, deg.
+SMALL = 1e-3
 
 
 def draw(performances: Sequence[Performance]) -> Figure:
-    """Return the comparison as four maps, wrists by maneuvers."""
+    """Return the comparison as three maps, wrists by maneuvers, and what they leave out."""
     figure = Figure(figsize=(12.0, 9.5), layout='constrained')
-    for axes, panel in zip(
-        figure.subplots(2, 2, sharex=True, sharey=True).flat, PANELS, strict=True
-    ):
+    places = figure.subplots(2, 2).ravel()
+    for axes, panel in zip(places, PANELS, strict=False):
         _draw_panel(axes, performances, panel)
+    places[1].tick_params(labelleft=False)
+    places[-1].set_axis_off()
+    places[-1].text(0.05, 0.9, notes(performances), va='top', fontsize=11, linespacing=1.6)
     figure.suptitle(
-        f'Every wrist, the same maneuvers, joints limited to {_degrees_per_second()}\n'
-        'pale is good; × stopped before the end; * points only, without roll',
-        fontsize=12,
+        f'Every wrist, the same maneuvers, joints limited to {_degrees_per_second()}', fontsize=13
     )
     return figure
+
+
+def notes(performances: Sequence[Performance]) -> str:
+    """Return what the picture says in words: its marks, and path errors, nearly all of them 0."""
+    worst = {
+        o.wrist: max(_error(p) for p in performances if p.wrist == o.wrist) for o in performances
+    }
+    off = {wrist: error for wrist, error in worst.items() if error >= SMALL}
+    return '\n'.join(
+        [
+            'Pale is good.',
+            f'{STOPPED}  stopped before the end: its numbers are those until then',
+            '*  points only, without roll',
+            '',
+            f'Path error: less than {SMALL:g}° everywhere{", but" if off else "."}',
+            *(f'    {wrist}: up to {error:.3f}°' for wrist, error in off.items()),
+        ]
+    )
+
+
+def _error(o: Performance) -> float:
+    return math.degrees(o.path_error)
 
 
 def _draw_panel(axes: Axes, performances: Sequence[Performance], panel: Panel) -> None:
@@ -171,7 +212,7 @@ def _marked(o: Performance) -> str:
 
 
 def _label(o: Performance, panel: Panel) -> str:
-    return panel.form.format(panel.value(o)) + ('' if o.completed else ' ×')
+    return panel.form.format(panel.value(o)) + ('' if o.completed else f' {STOPPED}')
 
 
 def main(

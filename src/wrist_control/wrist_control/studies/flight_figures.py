@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,6 +19,11 @@ GREEK = {'psi': 'ψ', 'theta': 'θ', 'phi': 'φ', 'alpha': 'α'}
 SHOWN = {'revolute': (math.degrees(1.0), 'deg'), 'prismatic': (1.0, 'm')}
 # A rate beyond this many times the commanded one would hide all others.
 CROWDED = 8.0
+# Curves nearer to each other than this share of a panel's height are seen as one: half a line.
+ALIKE = 0.003
+# Height of one row of a legend, points.
+LEGEND_ROW = 15.0
+MM = 1e-3  # m
 
 
 def draw_tip(flight: Flight, title: str) -> Figure:
@@ -51,15 +57,20 @@ def _inputs(axes: Axes, flight: Flight) -> None:
 
 
 def _tip(axes: Axes, flight: Flight, title: str) -> None:
-    _lines(axes, flight.time, flight.tip / INCH, ('x tip', 'y tip', 'z tip'))
-    _label(axes, title, 'in.')
+    _lines(axes, flight.time, flight.tip / MM, ('x tip', 'y tip', 'z tip'))
+    _label(axes, title, 'mm')
+    inch = INCH / MM
+    paper = axes.secondary_yaxis(
+        'right', functions=(partial(np.multiply, 1.0 / inch), partial(np.multiply, inch))
+    )
+    paper.set_ylabel('in.')
 
 
 def _rates(axes: Axes, flight: Flight) -> None:
     factors, unit = _shown(flight)
     rates = factors * flight.joint_rates
     _lines(axes, flight.time, rates, [f'{name} rate' for name in _names(flight)], steps=True)
-    _label(axes, '(c) Joint rates', f'{unit}/s')
+    _limits(axes, factors * [joint.rate_limit for joint in flight.wrist.joints], f'{unit}/s')
     usual = max(1.0, float(np.degrees(np.abs(flight.command).max())))
     if np.abs(rates).max() > CROWDED * usual:
         axes.set_ylim(-2.5 * usual, 2.5 * usual)
@@ -71,6 +82,14 @@ def _rates(axes: Axes, flight: Flight) -> None:
             textcoords='offset points',
             va='top',
         )
+    _label(axes, '(c) Joint rates', f'{unit}/s')
+
+
+def _limits(axes: Axes, limits: np.ndarray, unit: str) -> None:
+    """Draw every finite limit at both signs, once where several joints have the same."""
+    for limit in np.unique(limits[np.isfinite(limits)]):
+        for end, name in ((limit, f'limit ±{limit:.4g} {unit}'), (-limit, '_')):
+            axes.axhline(end, color='0.6', linewidth=1.0, zorder=1.0, label=name)
 
 
 def _positions(axes: Axes, flight: Flight) -> None:
@@ -107,8 +126,39 @@ def _lines(
 
 
 def _label(axes: Axes, title: str, unit: str) -> None:
-    axes.set_title(title, loc='left', fontsize=10)
+    """Name a finished panel and its curves, above it, where no curve can be."""
+    _name_what_coincides(axes)
+    names = len(axes.get_legend_handles_labels()[1])
+    columns = 4 if names <= 4 else 2
+    legend = axes.legend(
+        frameon=False,
+        fontsize=9,
+        ncols=columns,
+        loc='lower left',
+        bbox_to_anchor=(0.0, 1.0),
+        borderaxespad=0.0,
+        borderpad=0.2,
+        columnspacing=1.0,
+        handlelength=2.4,
+        handletextpad=0.5,
+    )
+    # The panels keep their width: the title makes room for the rows.
+    legend.set_in_layout(False)
+    axes.set_title(title, loc='left', fontsize=10, pad=4.0 + LEGEND_ROW * -(-names // columns))
     axes.set_ylabel(unit)
     axes.grid(alpha=0.3)
-    names = len(axes.get_lines())
-    axes.legend(frameon=False, fontsize=9, ncols=1 if names <= 4 else 2)
+
+
+def _name_what_coincides(axes: Axes) -> None:
+    """Say of each curve that cannot be told from one before it all along that it lies on it."""
+    low, high = axes.get_ylim()
+    drawn: list[tuple[str, np.ndarray]] = []
+    for line in axes.get_lines():
+        name, values = str(line.get_label()), np.asarray(line.get_ydata())
+        for other, those in drawn:
+            same_size = values.shape == those.shape
+            if same_size and np.abs(values - those).max() < ALIKE * (high - low):
+                line.set_label(f'{name} (lies on {other.split()[0]})')
+                break
+        else:
+            drawn.append((name, values))

@@ -117,9 +117,17 @@ def figures() -> Iterator[tuple[int, Figure]]:
     for first, case in zip((6, 9), CASES, strict=True):
         pose, velocity = pose_errors(case)[0], velocity_errors(case)
         lines = (
-            (pose[:, :3], 'error (µin.)', ('x', 'y', 'z')),
-            (pose[:, 3:], 'error (µrad)', ('α, about z', 'β, about y', 'γ, about x')),
-            (velocity, 'error (in./s)', tuple(f'$l_{leg}$' for leg in range(1, 7))),
+            (pose[:, :3], 'error of the position (µin.)', ('x', 'y', 'z')),
+            (
+                pose[:, 3:],
+                'error of the angles (µrad)',
+                ('α, about z', 'β, about y', 'γ, about x'),
+            ),
+            (
+                velocity,
+                'error of the leg rates (in./s)',
+                tuple(f'$l_{leg}$' for leg in range(1, 7)),
+            ),
         )
         for number, (errors, label, names) in enumerate(lines, start=first):
             title = f'Fig. {number}. {case.name}'
