@@ -224,8 +224,8 @@ class Stewart(Wrist):
             base.append(Pin(foot, b))
             top.append(Pin(head, p))
             for name, at, joint, tip, radius in (
-                (f'cylinder_{leg + 1}', b, foot, 0.55 * home, bar),
-                (f'rod_{leg + 1}', end, head, -0.6 * home, 0.5 * bar),
+                (f'cylinder_{leg + 1}', b, foot, 0.62 * home, bar),
+                (f'rod_{leg + 1}', end, head, -0.92 * home, 0.5 * bar),
             ):
                 tube = Rod(body.ORIGIN, (0.0, 0.0, tip), radius)
                 links.append(
