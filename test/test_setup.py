@@ -82,6 +82,17 @@ def test_a_changed_base_makes_everything_again(machine):
     assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (2, 6)
 
 
+@pytest.mark.parametrize('folder', ['config', 'foxglove', 'launch', 'rviz'])
+def test_a_new_file_that_comes_with_the_package_is_installed(machine, folder):
+    machine.set_up()
+    file = machine.checkout / 'src' / 'wrist_control' / folder / 'new.file'
+    file.parent.mkdir()
+    file.touch()
+    machine.set_up()
+    (again,) = machine.calls('colcon')[3:]
+    assert 'wrist_control' in again
+
+
 def test_a_venv_that_was_removed_comes_back_with_its_extras(machine):
     machine.set_up('test')
     shutil.rmtree(machine.checkout / '.venv')

@@ -19,6 +19,9 @@ NODES = [
     'stewart_forward_kinematics',
 ]
 
+# The folders of files that come with the package.
+SHIPPED = ('config', 'foxglove', 'launch', 'rviz')
+
 
 def wrist_names():
     """Return the names of all wrists, without importing the package.
@@ -50,7 +53,7 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml', 'CHANGELOG.rst', 'LICENSE']),
-        (f'share/{PACKAGE}/config', sorted(glob('config/*.yaml'))),
+        *((f'share/{PACKAGE}/{name}', sorted(glob(f'{name}/*.*'))) for name in SHIPPED),
     ],
     python_requires='>=3.10',
     install_requires=['numpy>=1.26'],
