@@ -37,6 +37,7 @@ APT_OF_MODULE = {
     'sensor_msgs': 'ros-jazzy-common-interfaces',
     'std_msgs': 'ros-jazzy-common-interfaces',
     'std_srvs': 'ros-jazzy-common-interfaces',
+    'tf2_msgs': 'ros-jazzy-tf2-msgs',
     'visualization_msgs': 'ros-jazzy-common-interfaces',
 }
 APT_OF_EXTRA = {

@@ -28,6 +28,10 @@ VENV = ROOT / '.venv'
 LOGS = ROOT / 'log'
 INTERFACES = ROOT / 'src' / 'wrist_interfaces'
 CONTROL = ROOT / 'src' / 'wrist_control'
+# The folders of files that come with the package, beside its modules.
+SHIPPED = ('config', 'foxglove', 'launch', 'rviz')
+# What ROS 2 ships and its wheels lack: colcon finds it only where it is named.
+TF2 = ROOT / 'underlay' / 'tf2_msgs'
 
 
 @dataclass(frozen=True)
@@ -55,19 +59,24 @@ def steps(extras: Iterable[str]) -> Iterator[Step]:
     """Return every step in order; all are done again when the first of them has changed."""
     if machine.ros_is_sourced():
         base = digest([], 'sourced', machine.version(), *sourced_prefixes(), str(ROOT))
+        yield removal_step(TF2, base)
     else:
         # The path counts too, since neither an environment nor a build can be moved.
         python = f'{sys.version_info.major}.{sys.version_info.minor} {sys.base_prefix}'
         files = [ROOT / 'requirements-build.txt', ROOT / 'requirements.txt']
         base = digest(files, 'wheels', python, str(ROOT))
         yield Step(VENV / '.made_from', base, make_venv)
-    key = digest((path for path in INTERFACES.rglob('*') if path.is_file()), base)
+        yield build_step(TF2, digest([*files_in(TF2), *files_in(INTERFACES / 'cmake')], base))
+    key = digest(files_in(INTERFACES), base)
     yield build_step(INTERFACES, key)
     # The modules themselves are linked, so that edits inside them need no new build.
     registry = CONTROL / 'wrist_control' / 'wrists' / 'registry.py'
     files = [registry, *(CONTROL / name for name in ('package.xml', 'setup.cfg', 'setup.py'))]
-    configs = sorted(path.name for path in (CONTROL / 'config').glob('*.yaml'))
-    yield build_step(CONTROL, digest(files, key, *configs))
+    # So are the files that come with them, but not one that is new.
+    names = sorted(
+        f'{name}/{one.name}' for name in SHIPPED for one in (CONTROL / name).glob('*.*')
+    )
+    yield build_step(CONTROL, digest(files, key, *names))
     for extra in extras:
         yield extra_step(extra, base)
 
@@ -91,9 +100,26 @@ def build_step(package: Path, key: str) -> Step:
     return Step(
         stamp=ROOT / 'build' / package.name / '.made_from',
         key=key,
-        make=lambda: build(package.name),
+        make=lambda: build(package),
         also=(share / 'package.sh', ROOT / 'install' / 'local_setup.sh'),
     )
+
+
+def removal_step(package: Path, key: str) -> Step:
+    """Return the step that leaves a package to the sourced ROS, whose own a build would hide."""
+    folder = ROOT / 'build' / package.name
+
+    def make() -> None:
+        remove(package)
+        folder.mkdir(parents=True)
+
+    # The stamp of its build, so that either step is done again after the other.
+    return Step(folder / '.made_from', key, make)
+
+
+def files_in(folder: Path) -> Iterator[Path]:
+    """Return every file in a folder, however deep."""
+    return (path for path in folder.rglob('*') if path.is_file())
 
 
 def sourced_prefixes() -> list[str]:
@@ -148,21 +174,27 @@ def pip() -> list[str]:
     return [sys.executable, '-m', 'pip', '--python', own]
 
 
-def build(package: str) -> None:
-    """Build one package from nothing."""
+def remove(package: Path) -> None:
+    """Remove what was built of one package."""
     for folder in ('build', 'install'):
-        shutil.rmtree(ROOT / folder / package, ignore_errors=True)
+        shutil.rmtree(ROOT / folder / package.name, ignore_errors=True)
+
+
+def build(package: Path) -> None:
+    """Build one package from nothing."""
+    remove(package)
     env = build_environment()
     python = sys.executable if machine.ros_is_sourced() else str(VENV / 'bin' / 'python')
     colcon = shutil.which('colcon', path=env['PATH']) or 'colcon'
-    command = [colcon, 'build', '--base-paths', 'src', '--packages-select', package]
+    command = [colcon, 'build', '--base-paths', str(package.relative_to(ROOT))]
+    command += ['--packages-select', package.name]
     command += ['--symlink-install', '--event-handlers', 'console_direct+', '--cmake-args']
     command += ['-DBUILD_TESTING=OFF', '-DCMAKE_BUILD_TYPE=Release']
     command += [f'-DPython3_EXECUTABLE={python}']
-    log = LOGS / f'setup_{package}.txt'
-    if not progress.run(f'building {package}', command, log, progress.percent, env):
+    log = LOGS / f'setup_{package.name}.txt'
+    if not progress.run(f'building {package.name}', command, log, progress.percent, env):
         print(*log.read_text(errors='replace').splitlines()[-30:], sep='\n', file=sys.stderr)
-        otherwise = f'{package} could not be built, as said above and in {log}.'
+        otherwise = f'{package.name} could not be built, as said above and in {log}.'
         raise machine.SetupError(machine.why(log, otherwise))
 
 

@@ -10,6 +10,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+import machine
+
 ROOT = Path(__file__).resolve().parents[1]
 TOOLS = ('cat', 'cp', 'dirname', 'grep', 'ln', 'mkdir', 'paste', 'rm', 'sleep', 'touch', 'tr')
 SOON = 20.0  # s; all of it takes far less
@@ -65,7 +67,8 @@ class Machine:
             self.mend(name)
 
     def _copy(self) -> None:
-        shutil.copytree(ROOT / 'src' / 'wrist_interfaces', self.checkout / 'src/wrist_interfaces')
+        for folder in ('src/wrist_interfaces', 'underlay'):
+            shutil.copytree(ROOT / folder, self.checkout / folder)
         control = 'src/wrist_control'
         names = ('setup', 'setup_workspace.py', 'machine.py', 'progress.py')
         for file in (
@@ -94,6 +97,17 @@ class Machine:
         """Take commands away from the machine."""
         for name in names:
             (self._fakes / name).unlink()
+
+    def sourced(self) -> dict[str, str]:
+        """Give the machine a ROS that has what the base needs; return what sourcing it sets."""
+        prefix = self.checkout.parent / 'ros'
+        for package in machine.APT_OF_ROS_PACKAGE:
+            share = prefix / 'share' / package
+            share.mkdir(parents=True)
+            (share / 'package.xml').touch()
+        self.fake('cmake', '')
+        self.present = ' '.join(machine.APT_OF_MODULE)
+        return {'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': str(prefix)}
 
     def calls(self, name: str) -> list[str]:
         """Return how a command has been called until now."""

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from catkin_pkg.changelog import get_changelog_from_path
 
+import setup_workspace
 import wrist_control
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -34,6 +35,9 @@ KEYS = {
         'yaml': 'yaml',
     }.items()
 }
+ROOMS = ('wrist_control', 'launch')
+# What the launch file starts of other packages, but where it is installed.
+OPTIONAL = {'rviz2'}
 BUILD = "from setuptools import build_meta as b; b.build_sdist('dist'); b.build_wheel('dist')"
 # What tools leave in the package's folder.
 MADE = ('__pycache__', '.hypothesis', '.pytest_cache', 'build', 'wrist_control.egg-info')
@@ -45,15 +49,21 @@ def manifest(package):
 
 
 def imports():
-    """Return the first part of every absolute import in the package, but Python's own."""
+    """Return the first part of every absolute import in what is installed, but Python's own."""
     found = set()
-    for file in (CONTROL / 'wrist_control').rglob('*.py'):
+    for file in (file for room in ROOMS for file in (CONTROL / room).rglob('*.py')):
         for node in ast.walk(ast.parse(file.read_text())):
             if isinstance(node, ast.Import):
                 found |= {name.name.partition('.')[0] for name in node.names}
             elif isinstance(node, ast.ImportFrom) and not node.level:
                 found.add(node.module.partition('.')[0])
     return found - sys.stdlib_module_names - {'wrist_control'}
+
+
+def started():
+    """Return every package that the launch file starts a node of."""
+    launched = (CONTROL / 'launch' / 'wrist.launch.py').read_text()
+    return set(re.findall(r"package='(\w+)'", launched))
 
 
 @pytest.fixture(scope='module')
@@ -164,6 +174,18 @@ def test_the_source_release_is_whole(dist):
     assert wanted <= names, wanted - names
 
 
+@pytest.mark.parametrize('folder', setup_workspace.SHIPPED)
+def test_what_comes_with_the_package_is_installed(installed, folder):
+    here = sorted(file.name for file in (CONTROL / folder).glob('*.*'))
+    share = installed / 'share' / 'wrist_control' / folder
+    assert here == sorted(file.name for file in share.iterdir() if file.is_file())
+    assert here
+
+
+def test_set_up_knows_every_folder_that_is_installed():
+    assert f'SHIPPED = {setup_workspace.SHIPPED}\n' in (CONTROL / 'setup.py').read_text()
+
+
 def test_no_package_has_a_link_that_leaves_it():
     for package in PACKAGES.values():
         links = [file for file in package.rglob('*') if file.is_symlink()]
@@ -176,7 +198,8 @@ def test_the_version_is_one():
     assert len(set(versions.values())) == 1
     (version,) = set(versions.values())
     for package in PACKAGES.values():
-        newest, _, content = next(iter(get_changelog_from_path(package).foreach_version()))
+        said = get_changelog_from_path(package).foreach_version()
+        newest, _, content = next(one for one in said if one[0].lower() != 'forthcoming')
         assert newest == version
         assert content
     assert f'(tag `{version}`)' in (ROOT / 'CHANGELOG.md').read_text()
@@ -186,7 +209,7 @@ def test_the_manifest_names_everything_that_is_imported():
     named = {
         one.text for kind in ('depend', 'exec_depend') for one in manifest(CONTROL).iter(kind)
     }
-    needed = {KEYS.get(name, name) for name in imports()}
+    needed = {KEYS.get(name, name) for name in imports() | started() - OPTIONAL}
     assert needed <= named, needed - named
 
 
@@ -194,7 +217,8 @@ def test_the_manifest_names_nothing_that_is_not_imported():
     named = {
         one.text for kind in ('depend', 'exec_depend') for one in manifest(CONTROL).iter(kind)
     }
-    assert named - {KEYS.get(name, name) for name in imports()} == set()
+    assert named - {KEYS.get(name, name) for name in imports() | started() - OPTIONAL} == set()
+    assert started() >= OPTIONAL
 
 
 def test_the_tests_of_the_package_alone_are_found_and_pass(tmp_path):

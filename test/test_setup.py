@@ -36,7 +36,7 @@ def test_setup_makes_everything_and_says_what(machine):
     code, sentences = machine.set_up()
     assert code == 0
     assert installed(machine) == ['requirements-build.txt', 'requirements.txt']
-    assert len(machine.calls('colcon')) == 2
+    assert len(machine.calls('colcon')) == 3
     for done in ('making .venv', 'installing ROS 2', 'building wrist_control', 'done in'):
         assert f'setup: {done}' in sentences
 
@@ -61,7 +61,7 @@ def test_an_extra_is_added_to_what_is_there(machine):
     assert code == 0
     assert 'installing what `docs` needs' in sentences
     assert installed(machine)[2:] == ['requirements-docs.txt']
-    assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (1, 2)
+    assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (1, 3)
 
 
 def test_a_changed_extra_alone_is_installed_again(machine):
@@ -70,7 +70,7 @@ def test_a_changed_extra_alone_is_installed_again(machine):
         file.write('# changed\n')
     machine.set_up('docs', 'test')
     assert installed(machine)[4:] == ['requirements-test.txt']
-    assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (1, 2)
+    assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (1, 3)
 
 
 def test_a_changed_base_makes_everything_again(machine):
@@ -79,7 +79,18 @@ def test_a_changed_base_makes_everything_again(machine):
         file.write('# changed\n')
     machine.set_up('test')
     assert installed(machine)[3:] == installed(machine)[:3]
-    assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (2, 4)
+    assert (len(machine.calls('venv')), len(machine.calls('colcon'))) == (2, 6)
+
+
+@pytest.mark.parametrize('folder', ['config', 'foxglove', 'launch', 'rviz'])
+def test_a_new_file_that_comes_with_the_package_is_installed(machine, folder):
+    machine.set_up()
+    file = machine.checkout / 'src' / 'wrist_control' / folder / 'new.file'
+    file.parent.mkdir()
+    file.touch()
+    machine.set_up()
+    (again,) = machine.calls('colcon')[3:]
+    assert 'wrist_control' in again
 
 
 def test_a_venv_that_was_removed_comes_back_with_its_extras(machine):
@@ -111,15 +122,8 @@ def test_an_extra_that_is_none_is_refused(machine):
 
 
 @pytest.fixture
-def sourced(machine, tmp_path):
-    """A shell in which ROS is sourced, on a machine that has what the base needs."""
-    for package in wanted.APT_OF_ROS_PACKAGE:
-        share = tmp_path / 'ros' / 'share' / package
-        share.mkdir(parents=True)
-        (share / 'package.xml').touch()
-    machine.fake('cmake', '')
-    machine.present = ' '.join(wanted.APT_OF_MODULE)
-    return {'ROS_DISTRO': 'jazzy', 'AMENT_PREFIX_PATH': str(tmp_path / 'ros')}
+def sourced(machine):
+    return machine.sourced()
 
 
 def test_where_ros_is_sourced_nothing_is_installed(machine, sourced):
@@ -240,7 +244,7 @@ def test_a_package_that_does_not_build_is_shown(machine):
     code, sentences = machine.set_up()
     assert code == 1
     assert 'fatal error: no such file' in sentences
-    assert 'setup: wrist_interfaces could not be built' in sentences
+    assert 'setup: tf2_msgs could not be built' in sentences
 
 
 def test_a_path_with_blanks(tmp_path):

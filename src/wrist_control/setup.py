@@ -19,6 +19,9 @@ NODES = [
     'stewart_forward_kinematics',
 ]
 
+# The folders of files that come with the package.
+SHIPPED = ('config', 'foxglove', 'launch', 'rviz')
+
 
 def wrist_names():
     """Return the names of all wrists, without importing the package.
@@ -50,13 +53,13 @@ setup(
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml', 'CHANGELOG.rst', 'LICENSE']),
-        (f'share/{PACKAGE}/config', sorted(glob('config/*.yaml'))),
+        *((f'share/{PACKAGE}/{name}', sorted(glob(f'{name}/*.*'))) for name in SHIPPED),
     ],
     python_requires='>=3.10',
     install_requires=['numpy>=1.26'],
     extras_require={
         'figures': ['matplotlib', 'pillow', 'rich'],
-        # ROS 2 Jazzy from its wheels; wrist_interfaces is built beside it, with colcon.
+        # ROS 2 Jazzy from its wheels; wrist_interfaces and tf2_msgs are built beside it.
         'ros': ['ros-jazzy-common-interfaces==5.3.6', 'ros-jazzy-rclpy[fastrtps]==7.1.6'],
         # By this name `colcon test` knows which tool runs the tests.
         'test': ['hypothesis', 'pytest', 'pytest-timeout', 'scipy'],

@@ -66,6 +66,11 @@ class Poses(NamedTuple):
     position: np.ndarray
 
 
+def placed(pose: Pose, local: Pose) -> Pose:
+    """Return the forearm pose of what stands somewhere in the axes of a pose."""
+    return Pose(product(pose.quaternion, local.quaternion), pose.point(local.position))
+
+
 def direction_cosines(a: Quaternion) -> DirectionCosines:
     """Return the rows of C for a unit quaternion. [Barker1986], fig. 2(d)."""
     a1, a2, a3, a4 = a

@@ -12,18 +12,15 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
-from visualization_msgs.msg import MarkerArray
 
+from wrist_control.nodes.resolver_pictures import Pictures
 from wrist_control.resolving.announcer import SteadyAxis
 from wrist_control.resolving.period import PeriodResult
 from wrist_control.ros import convert
-from wrist_control.ros.markers import wrist_markers
 from wrist_control.ros.qos import LASTING, OUTPUT
 from wrist_control.wrists import Wrist
 from wrist_interfaces.msg import LimitAtWork, WristStatus
 
-# Pictures need not be drawn at the rate of the control loop.
-MARKERS_PER_SECOND = 20.0
 # So long whoever listens may take to acknowledge the last words before the node is gone.
 LAST_WORDS = Duration(seconds=0.2)
 
@@ -42,15 +39,13 @@ class Outputs:
         self._wrist = wrist
         self._forearm, self._hand = values['forearm_frame'], values['hand_frame']
         self._names = [values['joint_prefix'] + joint.name for joint in wrist.joints]
-        self._every = max(1, round(values['rate'] / MARKERS_PER_SECOND))
-        self._count = 0
         self._was_allowed = False
         self._lost_axis = SteadyAxis()
         self._command = node.create_publisher(JointState, 'joint_command', OUTPUT)
         self._velocity = node.create_publisher(Float64MultiArray, 'joint_velocity_command', OUTPUT)
         self._pose = node.create_publisher(PoseStamped, 'hand_pose', OUTPUT)
         self._status = node.create_publisher(WristStatus, 'wrist_status', OUTPUT)
-        self._markers = node.create_publisher(MarkerArray, 'markers', OUTPUT)
+        self._pictures = Pictures(node, wrist, values)
         # Not a command: joints that are simulated learn from it which they are, and where.
         self._initial = node.create_publisher(JointState, 'initial_joints', LASTING)
         start = values['initial_positions'] or wrist.home
@@ -75,18 +70,8 @@ class Outputs:
         self._pose.publish(convert.pose_message(header, taken.state.pose))
         status = self._status_message(result, stamp)
         self._status.publish(status)
-        if self._count % self._every == 0:
-            lost = status.lost_axis
-            self._markers.publish(
-                wrist_markers(
-                    header,
-                    taken.state.pose,
-                    (lost.x, lost.y, lost.z),
-                    taken.margin,
-                    result.message,
-                )
-            )
-        self._count += 1
+        lost = status.lost_axis
+        self._pictures.publish(header, taken, (lost.x, lost.y, lost.z), result.message)
 
     def settle(self) -> None:
         """Leave a zero as the last velocity, and see it arrive."""

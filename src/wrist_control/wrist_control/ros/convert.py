@@ -6,7 +6,7 @@ import array
 from collections.abc import Sequence
 
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import PoseStamped, Twist, Vector3
+from geometry_msgs.msg import Point, PoseStamped, Quaternion, Transform, Twist, Vector3
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
@@ -60,7 +60,18 @@ def joint_message(
 def pose_message(header: Header, pose: Pose) -> PoseStamped:
     """Return a PoseStamped of a hand pose in the forearm frame."""
     message = PoseStamped(header=header)
-    where, turn = message.pose.position, message.pose.orientation
+    fill(message.pose.position, message.pose.orientation, pose)
+    return message
+
+
+def transform_message(pose: Pose) -> Transform:
+    """Return the Transform from the axes that a pose is in to those that it is of."""
+    message = Transform()
+    fill(message.translation, message.rotation, pose)
+    return message
+
+
+def fill(where: Point | Vector3, turn: Quaternion, pose: Pose) -> None:
+    """Write a pose into the two parts of a message that hold one."""
     where.x, where.y, where.z = pose.position
     turn.x, turn.y, turn.z, turn.w = xyzw(pose.quaternion)
-    return message

@@ -16,3 +16,5 @@ LASTING = QoSProfile(
 )
 # What must not be lost is asked for again.
 EVERY_RELIABLE = QoSProfile(depth=10, reliability=ReliabilityPolicy.RELIABLE)
+# As tf2's own broadcasters: frames of many publishers share one topic, and none may be lost.
+FRAMES = QoSProfile(depth=100, reliability=ReliabilityPolicy.RELIABLE)

@@ -15,16 +15,13 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 
 from wrist_control.rotations import Pose
-from wrist_control.wrists.body import Arc, Ball, Body, Plate, Rod, Shape
+from wrist_control.wrists.body import HAND, Arc, Ball, Body, Plate, Rod, Shape, colours
 
 # Sides of a bar; and how much longer than thick the pieces of one are at most, so that the far
 # ones are drawn before the near ones.
 SIDES, LONGEST = 10, 4.0
 # Pieces of a whole ring.
 PIECES = 48
-FOREARM, HAND = '#5b6470', '#d55e00'
-# The bodies between, from the forearm on.
-BETWEEN = ('#0072b2', '#56b4e9', '#009e73', '#94a3b8', '#cc79a7', '#e69f00')
 # From where the picture is seen and lit: azimuth and elevation, rad.
 CAMERA = (math.radians(-55.0), math.radians(24.0))
 LIGHT = (math.radians(-95.0), math.radians(55.0))
@@ -38,22 +35,6 @@ class Window(NamedTuple):
     right: float
     bottom: float
     top: float
-
-
-def colours(bodies: Sequence[Body]) -> list[str]:
-    """Return a colour for each body: the forearm's, the hand's, and others in a row between.
-
-    Bodies that end in the same number belong to one leg and have one colour.
-    """
-    rows: dict[str, str] = {}
-    for body in bodies[1:-1]:
-        rows.setdefault(_leg_of(body), BETWEEN[len(rows) % len(BETWEEN)])
-    return [FOREARM, *(rows[_leg_of(body)] for body in bodies[1:-1]), HAND]
-
-
-def _leg_of(body: Body) -> str:
-    _, _, number = body.name.rpartition('_')
-    return number if number.isdigit() else body.name
 
 
 def triangles(shape: Shape) -> np.ndarray:

@@ -20,6 +20,10 @@ PROBE_LENGTH = 6.0 * INCH
 ALONG_X: Vector = (PROBE_LENGTH, 0.0, 0.0)
 ALONG_Z: Vector = (0.0, 0.0, PROBE_LENGTH)
 
+# How bodies are coloured: the forearm, the hand, and those between from the forearm on.
+FOREARM, HAND = '#5b6470', '#d55e00'
+BETWEEN = ('#0072b2', '#56b4e9', '#009e73', '#94a3b8', '#cc79a7', '#e69f00')
+
 X: Vector = (1.0, 0.0, 0.0)
 Y: Vector = (0.0, 1.0, 0.0)
 Z: Vector = (0.0, 0.0, 1.0)
@@ -106,6 +110,22 @@ class Body(NamedTuple):
     pose: Pose
     shapes: tuple[Shape, ...]
     pins: tuple[Pin, ...] = ()
+
+
+def colours(bodies: Sequence[Body]) -> list[str]:
+    """Return a colour for each body: the forearm's, the hand's, and others in a row between.
+
+    Bodies that end in the same number belong to one leg and have one colour.
+    """
+    rows: dict[str, str] = {}
+    for body in bodies[1:-1]:
+        rows.setdefault(_leg_of(body), BETWEEN[len(rows) % len(BETWEEN)])
+    return [FOREARM, *(rows[_leg_of(body)] for body in bodies[1:-1]), HAND]
+
+
+def _leg_of(body: Body) -> str:
+    _, _, number = body.name.rpartition('_')
+    return number if number.isdigit() else body.name
 
 
 def scaled(vector: Vector, factor: float) -> Vector:

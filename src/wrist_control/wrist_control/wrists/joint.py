@@ -36,6 +36,19 @@ class Joint(NamedTuple):
     acceleration_limit: float = math.inf
     deceleration_limit: float = math.inf
 
+    def used(self, position: float, rate: float) -> float:
+        """Return how much of its limits a joint uses, 0 to 1: of its speed, or of its range.
+
+        A range that is open at an end has no middle, and does not count.
+
+        Args:
+            position: rad or m.
+            rate: rad/s or m/s.
+        """
+        speed = abs(rate) / self.rate_limit
+        middle, half = 0.5 * (self.lower + self.upper), 0.5 * (self.upper - self.lower)
+        return max(speed, abs(position - middle) / half) if math.isfinite(half) else speed
+
 
 def broadcast_to_joints(name: str, values: Sequence[float], joints: Sequence[str]) -> list[float]:
     """Return one value for each joint, where one for each or one for all is given.
