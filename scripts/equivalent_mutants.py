@@ -182,4 +182,18 @@ EQUIVALENT = (
         '(0.025)',
         'joints go with a root of the factor at the least, so that only rounding comes this low',
     ),
+    Equivalent(
+        'wrists/roll_pitch_roll.py',
+        'Rod((-FORK, -side, 0.0), (-FORK, side, 0.0)),',
+        'Rod((-FORK, -side, 0.0), (-FORK, side, 0.0))',
+        '(Rod((-FORK, side, 0.0), (-FORK, -side, 0.0)))',
+        'a bar looks the same from either end',
+    ),
+    Equivalent(
+        'wrists/double_hooke.py',
+        'if math.hypot(a1, a4) > LOCK:',
+        'math.hypot(a1, a4) > LOCK',
+        '(math.hypot(a1, a4) >= LOCK)',
+        'nothing is ever exactly at this distance from lock',
+    ),
 )

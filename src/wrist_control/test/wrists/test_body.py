@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from wrist_control import WRISTS, make_wrist
 from wrist_control.rotations import Pose, about_z, to_forearm
 from wrist_control.testing.seen import SEEN
 from wrist_control.wrists import body, wrist_class
@@ -62,6 +63,24 @@ def test_a_hand_points_along_its_probe_and_its_thumb_shows_its_roll():
         np.testing.assert_allclose(np.cross(bar.begin, probe), 0.0, atol=1e-15)
         np.testing.assert_allclose(np.add(palm.begin, palm.end) / 2.0, bar.begin, atol=1e-15)
         assert np.flatnonzero(np.subtract(finger.end, finger.begin)).tolist() == [thumb]
+
+
+@pytest.mark.parametrize('name', WRISTS)
+def test_the_forearm_stands_behind_the_hand_of_home(name):
+    """Nothing of it lies further on than its bars are thick, along the probe."""
+    wrist = make_wrist(name)
+    forearm, *_ = wrist.bodies(wrist.home)
+    along = np.array(wrist.probe) / np.linalg.norm(wrist.probe)
+    for shape in forearm.shapes:
+        if isinstance(shape, body.Rod):
+            assert max(along @ shape.begin, along @ shape.end) <= 1e-12
+        if isinstance(shape, body.Ball):
+            assert along @ shape.centre <= 1e-12
+        if isinstance(shape, body.Arc):
+            middle = math.cos(0.5 * shape.angle) * np.array(shape.begin) + math.sin(
+                0.5 * shape.angle
+            ) * np.cross(shape.axis, shape.begin)
+            assert along @ middle <= 1e-12
 
 
 def test_a_new_wrist_is_drawn_for_nothing():

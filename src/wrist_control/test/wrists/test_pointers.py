@@ -22,10 +22,11 @@ rates = st.tuples(*(st.floats(-1.0, 1.0),) * 3)
 
 
 @both
-def test_a_roll_of_its_own_is_out_of_reach(wrist):
+@pytest.mark.parametrize('roll', [0.01, -0.01])
+def test_a_roll_of_its_own_is_out_of_reach(wrist, roll):
     pose = wrist.forward((0.3, 0.4))
     with pytest.raises(UnreachableError, match='point'):
-        wrist.inverse(Pose(product(pose.quaternion, about_z(0.01))), (0.0, 0.0))
+        wrist.inverse(Pose(product(pose.quaternion, about_z(roll))), (0.0, 0.0))
 
 
 @pytest.mark.parametrize(
@@ -41,8 +42,9 @@ def test_a_roll_of_a_millionth_is_round_off_and_one_of_five_is_none(wrist):
 
     found = wrist.inverse(rolled(5e-7), positions)
     np.testing.assert_allclose(found, positions, atol=1e-5)
-    with pytest.raises(UnreachableError):
-        wrist.inverse(rolled(5e-6), positions)
+    for roll in (5e-6, -5e-6):
+        with pytest.raises(UnreachableError):
+            wrist.inverse(rolled(roll), positions)
 
 
 @both

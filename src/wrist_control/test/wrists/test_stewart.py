@@ -155,7 +155,11 @@ def test_where_no_turn_is_lost_the_lost_axis_is_still_a_unit_vector():
     """Six legs that hold all but a shift along x: rows of (n, p × n) without its first column."""
     lines = tuple(tuple(row) for row in np.eye(6)[[1, 2, 3, 4, 5, 5]].tolist())
     axis = WRIST.lost_axis(LegConfiguration(tuple(WRIST.home), HOME, lines, WRIST.size))
-    assert math.hypot(*axis) == 1.0
+    assert axis == (0.0, 0.0, 1.0)  # the turn that locks a platform at last
+
+
+def test_a_leg_cannot_be_shorter_than_nothing():
+    assert {joint.lower for joint in WRIST.joints} == {0.0}
 
 
 @given(twists)

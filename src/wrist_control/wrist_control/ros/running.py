@@ -34,7 +34,7 @@ LONGEST_WAIT = 3600.0
 # An executor that raises so often, each time within so many s, will not work again.
 MOST_BREAKS, SOON = 10, 1.0
 # How long a node that cannot start looks for somebody on /rosout, and lets the words go out, s.
-LISTENERS_WITHIN, LAST_WORDS = 0.5, 0.1
+LISTENERS_WITHIN, LAST_WORDS = 0.5, 0.3
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
@@ -77,10 +77,10 @@ def _tell_refused(sentence: str) -> None:
     """Log why a node cannot start, so that whoever listens to /rosout hears it."""
     gc.collect()  # the node that could not start, whose name would be taken
     node = rclpy.create_node(Path(sys.argv[0]).name)
+    node.get_logger().fatal(sentence)  # /rosout keeps it for whoever is found later
     end = time.monotonic() + LISTENERS_WITHIN
     while not node.count_subscribers('/rosout') and time.monotonic() < end:
         time.sleep(0.01)
-    node.get_logger().fatal(sentence)
     if node.count_subscribers('/rosout'):
         time.sleep(LAST_WORDS)
     rclpy.try_shutdown()

@@ -67,13 +67,19 @@ def show(name: str) -> Show:
 
 
 def moments(flight: Flight) -> dict[str, int]:
-    """Return three moments of a flight by what they show: home, half bent, and the worst."""
-    worst = int(flight.margin.argmin())
+    """Return three moments of a flight by what they show: home, half bent, and the worst.
+
+    Half bent is half of the largest bend, and the worst is the closest to lock from there on.
+    """
     home = flight.hand_rotation[0]
     cosines = 0.5 * (np.einsum('nij,ij->n', flight.hand_rotation, home) - 1.0)
     bends = np.arccos(np.clip(cosines, -1.0, 1.0))
-    half = int(np.abs(bends[: worst + 1] - 0.5 * bends[worst]).argmin())
-    return {'home': 0, 'half bent': half, 'at its worst': worst}
+    half = int((bends >= 0.5 * bends.max()).argmax())
+    return {
+        'home': 0,
+        'half bent': half,
+        'at its worst': half + int(flight.margin[half:].argmin()),
+    }
 
 
 def draw_moments(name: str, shown: Show) -> Figure:
@@ -153,7 +159,7 @@ def main(arguments: Sequence[str] = ()) -> None:
         still = save(draw_moments(name, shown), Path(folder) / f'{name}.png', DPI)
         moving = animate(name, shown, Path(folder) / f'{name}.webp')
         for path in (still, moving):
-            console.print(f'{path}: {math.ceil(path.stat().st_size / 1024)} kB')
+            console.print(f'{path}: {math.ceil(path.stat().st_size / 1024)} kB', soft_wrap=True)
 
 
 if __name__ == '__main__':
