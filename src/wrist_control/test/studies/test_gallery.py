@@ -33,8 +33,9 @@ def test_every_wrist_is_shown_where_it_flies(name):
         np.testing.assert_allclose(hand.rotation, flight.hand_rotation[index], atol=1e-9)
         np.testing.assert_allclose(hand.point(wrist.probe), flight.tip[index], atol=1e-9)
     home, half, worst = moments(flight).values()
-    assert (home, flight.margin[worst]) == (0, flight.margin[half:].min())
-    assert home < half < worst
+    assert home == 0 < half < worst
+    if name != 'roll_pitch_roll':  # at home it is closest to lock
+        assert flight.margin[worst] == flight.margin.min()
 
     def bend(index):
         away = rates_between(
@@ -42,8 +43,7 @@ def test_every_wrist_is_shown_where_it_flies(name):
         )
         return math.hypot(*away)
 
-    largest = max(bend(index) for index in range(len(flight.time)))
-    assert bend(half) == pytest.approx(0.5 * largest, abs=0.02)
+    assert bend(half) == pytest.approx(0.5 * bend(worst), abs=0.02)
 
 
 def test_a_moment_says_what_the_flight_does():

@@ -69,17 +69,16 @@ def show(name: str) -> Show:
 def moments(flight: Flight) -> dict[str, int]:
     """Return three moments of a flight by what they show: home, half bent, and the worst.
 
-    Half bent is half of the largest bend, and the worst is the closest to lock from there on.
+    The worst is the closest to lock; for a wrist that is closest at home, the furthest bent.
     """
     home = flight.hand_rotation[0]
     cosines = 0.5 * (np.einsum('nij,ij->n', flight.hand_rotation, home) - 1.0)
     bends = np.arccos(np.clip(cosines, -1.0, 1.0))
-    half = int((bends >= 0.5 * bends.max()).argmax())
-    return {
-        'home': 0,
-        'half bent': half,
-        'at its worst': half + int(flight.margin[half:].argmin()),
-    }
+    worst, title = int(flight.margin.argmin()), 'at its worst'
+    if worst == 0:
+        worst, title = int(bends.argmax()), 'furthest bent'
+    half = int((bends >= 0.5 * bends[worst]).argmax())
+    return {'home': 0, 'half bent': half, title: worst}
 
 
 def draw_moments(name: str, shown: Show) -> Figure:
