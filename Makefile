@@ -68,6 +68,10 @@ compare: setup  ## fly every wrist through the same maneuvers and compare them
 dexterity: setup  ## map where each wrist can turn the hand well
 	@./env python3 -m wrist_control.studies.dexterity_maps
 
+.PHONY: gallery
+gallery: setup  ## draw every wrist as its mechanism, still and in motion
+	@./env python3 -m wrist_control.studies.gallery
+
 .PHONY: docs
 docs: setup-docs  ## write docs/wrists.md from the code, and build the site in out/site
 	@./env python3 scripts/wrist_table.py

@@ -196,4 +196,14 @@ EQUIVALENT = (
         '(math.hypot(a1, a4) >= LOCK)',
         'nothing is ever exactly at this distance from lock',
     ),
+    *(
+        Equivalent(
+            'resolving/supervisor.py',
+            'self._home_speed, self._share = 0.0, 1.0',
+            '1.0',
+            after,
+            'until something moves, the share is one of nothing',
+        )
+        for after in ('(0.1)', '(10.0)', '(-1.0)', '(2.0)', '(0.0)')
+    ),
 )

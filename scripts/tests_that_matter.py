@@ -24,6 +24,7 @@ PARTS_OF = {
     'nodes/resolver_clock.py': 'nodes.resolver',
     'nodes/resolver_inputs.py': 'nodes.resolver',
     'nodes/resolver_outputs.py': 'nodes.resolver',
+    'nodes/resolver_pictures.py': 'nodes.resolver',
     'nodes/resolver_settings.py': 'nodes.resolver',
     'resolving/platform_observer.py': 'nodes.stewart_forward_kinematics',
 }

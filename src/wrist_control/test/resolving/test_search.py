@@ -85,3 +85,16 @@ def test_the_limits_that_chose_the_share_stay_and_each_is_named_once_as_first_as
 def test_a_share_of_nothing_is_not_searched_for():
     share, made, _ = largest_share(lambda share: (None, [limit(math.nan)]), 0.0)
     assert (share, made) == (0.0, None)
+
+
+def test_after_six_guesses_that_lead_nowhere_a_tenth_is_tried_and_again():
+    asked = []
+
+    def attempt(share):
+        asked.append(share)
+        return (share, []) if share < 0.01 else (None, [limit(0.9)])
+
+    largest_share(attempt, 1.0)
+    tried = asked[: next(i for i, share in enumerate(asked) if share < 0.01) + 1]
+    guesses = [0.9**number for number in range(7)]
+    assert tried == pytest.approx([*guesses, 0.1 * guesses[-1], 0.01 * guesses[-1]])

@@ -29,6 +29,12 @@ def broken(clocked, rail):
 # Disabled and enabled
 
 
+def test_enabled_again_it_says_that_commands_are_followed(wrist):
+    wrist.enable(False)
+    assert wrist.enable(True) == 'Enabled: following commands.'
+    assert wrist.enable(True) == 'Enabled: following commands.'
+
+
 def test_disabled_while_it_moves_it_ramps_to_a_stop_that_is_sent_and_then_nothing_is(wrist):
     full = wrist.ticks(0.1, PITCH)[-1].step.joint_rates[1]
     wrist.enable(False)
