@@ -39,6 +39,7 @@ python_display_short_literal_types = True
 ALIASES = {
     'rotations': ('Vector', 'Quaternion', 'DirectionCosines'),
     'wrists.wrist': ('Rates', 'Positions', 'SteeringState'),
+    'wrists.body': ('Shape',),
     'wrists.joint': ('Kind', 'Limits'),
     'resolving.state': ('Twist',),
 }
@@ -50,7 +51,7 @@ autodoc_type_aliases = {
 UNKNOWN = (
     r'(np|numpy|collections\.abc|abc|enum)\..*',
     r"\d|'\w+'|TypeAliasForwardRef|.*\.SomeWrist",
-    rf'(.*\.)?({"|".join(autodoc_type_aliases)})',
+    rf'\'?(.*\.)?({"|".join(autodoc_type_aliases)})\'?',
 )
 nitpick_ignore_regex = [('py:.*', name) for name in UNKNOWN]
 

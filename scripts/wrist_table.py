@@ -5,6 +5,7 @@ python3 scripts/wrist_table.py [FILE]
 
 from __future__ import annotations
 
+import inspect
 import math
 import sys
 from collections.abc import Iterator
@@ -12,22 +13,22 @@ from pathlib import Path
 
 from wrist_control.wrists import WRISTS, Wrist, make_wrist, wrist_class
 
-TARGET = Path(__file__).resolve().parent.parent / 'docs' / 'wrists.md'
+DOCS = Path(__file__).resolve().parent.parent / 'docs'
+TARGET, GALLERY = DOCS / 'wrists.md', DOCS / 'gallery'
 HEAD = """# The wrists
 
 Written by `make docs` from the code itself; nothing here is kept by hand.
 Angles are in rad and lengths in m; joints are named outermost first.
 
+The animations show the basic test maneuver in real time, every joint held to 32 deg/s: pitch by
+90°, then yaw by 90°. `make gallery` draws them again.
+
 | wrist | resolver | joints | home | follows | edges of its workspace |
 | --- | --- | --- | --- | --- | --- |
 """
 PARAMETERS = """
-## Their own parameters
-
-Beside those of [every resolver](interfaces.md#parameters-of-every-resolver).
-
-| wrist | parameter | default | valid | meaning |
-| --- | --- | --- | --- | --- |
+| parameter | default | valid | meaning |
+| --- | --- | --- | --- |
 """
 
 
@@ -48,17 +49,29 @@ def parameter_rows(name: str) -> Iterator[str]:
     for parameter, facts in kind.dimensions().items():
         most = '' if math.isinf(facts.maximum) else f' to {facts.maximum:.4g}'
         valid = f'{facts.minimum:.4g}{most}{"" if most else " or more"} {facts.unit}'
-        yield f'| `{name}` | `{parameter}` | {facts.default:.4g} | {valid} | {facts.description} |'
+        yield f'| `{parameter}` | {facts.default:.4g} | {valid} | {facts.description} |'
     for parameter, points in kind.point_lists().items():
-        meaning = f'{points.description}; all in a row'
-        yield f'| `{name}` | `{parameter}` | empty | finite, m | {meaning} |'
+        yield f'| `{parameter}` | empty | finite, m | {points.description}; all in a row |'
+
+
+def section(name: str) -> str:
+    """Return the section of one wrist: what it looks like, what it is, and its parameters."""
+    told = inspect.getdoc(wrist_class(name)) or ''
+    text = f'\n## {name}\n\n'
+    if (GALLERY / f'{name}.png').exists():
+        text += f'![{name} in motion](gallery/{name}.webp)\n\n'
+        text += f'![{name} at home, half bent and at its worst](gallery/{name}.png)\n\n'
+    text += told.partition('\nAttributes:')[0].strip() + '\n'
+    rows = list(parameter_rows(name))
+    return text + (PARAMETERS + '\n'.join(rows) + '\n' if rows else '')
 
 
 def document() -> str:
     """Return the whole document."""
     rows = [wrist_row(name, make_wrist(name)) for name in WRISTS]
-    parameters = [row for name in WRISTS for row in parameter_rows(name)]
-    return HEAD + '\n'.join(rows) + '\n' + PARAMETERS + '\n'.join(parameters) + '\n'
+    beside = '\nBeside the parameters below, each has those of '
+    beside += '[every resolver](interfaces.md#parameters-of-every-resolver).\n'
+    return HEAD + '\n'.join(rows) + '\n' + beside + ''.join(map(section, WRISTS))
 
 
 if __name__ == '__main__':

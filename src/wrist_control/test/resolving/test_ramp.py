@@ -5,7 +5,6 @@ from wrist_control.resolving import start
 from wrist_control.resolving.period import SupervisorSettings
 from wrist_control.resolving.ramp import PAUSE, Ramp, after_a_pause, scaled
 
-
 SETTINGS = SupervisorSettings(0.01, 0.25, 0.1, (0.0, 0.0, 0.0), (0.1, 0.1, 0.1))
 
 

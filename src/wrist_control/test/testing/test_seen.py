@@ -10,7 +10,7 @@ from wrist_control import WRISTS
 from wrist_control.rotations import about_x, product
 from wrist_control.testing.broken import LawBrokenError
 from wrist_control.testing.seen import SEEN
-from wrist_control.wrists import wrist_class
+from wrist_control.wrists import Wrist, wrist_class
 from wrist_control.wrists.body import Ball
 
 
@@ -121,8 +121,10 @@ FAULTS = (
     floating_pin,
     joints_that_turn_backwards,
 )
+# A wrist that says nothing of itself is a forearm and a hand: there is little to get wrong.
+DRAWN = tuple(name for name in WRISTS if wrist_class(name).bodies is not Wrist.bodies)
 # The platform's pins have no axes but those along the legs, which its hand has none of.
-CASES = [(f, n) for f in FAULTS for n in WRISTS if (f, n) != (pin_askew, 'stewart')]
+CASES = [(f, n) for f in FAULTS for n in DRAWN if (f, n) != (pin_askew, 'stewart')]
 
 
 def seeded(fault, name):
@@ -148,7 +150,7 @@ def test_every_fault_of_a_drawing_breaks_a_law(fault, name):
         look_at(wrist)
 
 
-@pytest.mark.parametrize('name', WRISTS)
+@pytest.mark.parametrize('name', DRAWN)
 def test_every_driven_joint_can_be_seen(name):
     wrist = wrist_class(name)()
     pins = {pin.name for body in wrist.bodies(wrist.home) for pin in body.pins}

@@ -80,14 +80,9 @@ def compare(
 def approach_axis(wrist: Wrist) -> int:
     """Return the hand axis (0, 1, 2 for x, y, z) that points away from the wrist.
 
-    It is the rotation axis that a pointer cannot follow, or else the axis that leads from the
-    forearm to the hand, or else x.
+    The probe lies along it.
     """
-    unfollowed = {0, 1, 2} - set(wrist.followed_axes)
-    if unfollowed:
-        return unfollowed.pop()
-    away = np.abs(wrist.forward(wrist.home).position)
-    return int(np.argmax(away)) if away.any() else 0
+    return int(np.argmax(np.abs(wrist.probe)))
 
 
 def about_approach(maneuver: Maneuver, axis: int) -> Maneuver:

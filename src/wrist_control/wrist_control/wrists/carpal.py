@@ -67,7 +67,9 @@ class Carpal(Wrist):
     """Tilts the hand about two axes and carries it on a sphere of radius `plunge`.
 
     p and q are followed, r is what a tilt without torsion forces, and the plunge that the joints
-    start with is held.
+    start with is held. It ends where a leg folds.
+
+    Choose it to point with a passage through its middle, for cables or a drive shaft that rolls.
     """
 
     base_radius: float = dimension(0.075, 'from the plate centre to a leg hinge', 'm', 1e-4)
@@ -225,22 +227,18 @@ class Carpal(Wrist):
             top, node = pose.point(hinge), lower.point(mid.point)
             along = body.scaled(_from(top, node), 1.0 / self.leg_length)
             upper = _leg(top, along, to_forearm(pose.quaternion, across))
-            first, last = f'theta_{leg}', f'distal_{leg}'
             axle = Rod((0.0, -4.0 * body.BAR, 0.0), (0.0, 4.0 * body.BAR, 0.0))
             link = (Rod(body.ORIGIN, mid.point), axle, Ball(mid.point, 2.0 * body.BAR))
-            base.append(Pin(first, hinge, body.scaled(across, -1.0)))
-            distal.append(Pin(last, hinge, across))
-            driven = Pin(first, body.ORIGIN, body.RIGHT)
+            driven = Pin(f'theta_{leg}', body.ORIGIN, body.RIGHT)
+            passive = Pin(f'distal_{leg}', body.ORIGIN, body.Y)
+            base.append(driven._replace(point=hinge, axis=body.scaled(across, -1.0)))
+            distal.append(passive._replace(point=hinge, axis=across))
             legs.append(Body(f'lower_leg_{leg}', lower, link, (driven, mid)))
-            passive = Pin(last, body.ORIGIN, body.Y)
             legs.append(Body(f'upper_leg_{leg}', upper, link, (passive, mid)))
         plate = Plate(tuple(pin.point for pin in base), 2.0 * body.BAR)
         stem = Rod((0.0, 0.0, -self.base_radius), body.ORIGIN, 2.0 * body.BAR)
-        return (
-            Body('forearm', body.AT_REST, (plate, stem), tuple(base)),
-            *legs,
-            body.hand(pose, tuple(distal), plate, probe=self.probe),
-        )
+        forearm = Body('forearm', body.AT_REST, (plate, stem), tuple(base))
+        return (forearm, *legs, body.hand(pose, tuple(distal), plate, probe=self.probe))
 
     def reach(self, azimuth: float) -> float:
         """Return the tilt β at which a leg folds at the home plunge, rad; π where none does.

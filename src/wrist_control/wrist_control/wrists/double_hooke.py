@@ -43,6 +43,9 @@ class DoubleHooke(Wrist):
 
     The hand's origin is the centre of the second joint, so it moves as the wrist bends. Locks at
     θ = ±90° and ψ = ±90°, outside its cone.
+
+    Choose it for a whole hemisphere without lock and without a fast joint, where the arm can take
+    back that the hand moves aside by up to 0.71 l.
     """
 
     cone_half_angle: float = cone_half_angle()

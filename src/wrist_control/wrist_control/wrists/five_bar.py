@@ -45,7 +45,9 @@ SPHERE = 0.07
 class FiveBar(Wrist):
     """Points the hand's z axis over a hemisphere with two joints, both on the forearm.
 
-    p and q are followed; the hand's roll is what the mechanism forces.
+    p and q are followed; the hand's roll is what the mechanism forces. Locks on the equator.
+
+    Choose it to point something light quickly: neither drive carries the other.
     """
 
     default_joints: ClassVar[tuple[Joint, ...]] = (Joint('theta_1'), Joint('theta_2'))

@@ -34,6 +34,9 @@ class FourGimbal(Wrist):
 
     α̇ depends on where the gimbals are alone, so the other three must do all that the command
     still needs, and they lock where those of the three-gimbal wrist do.
+
+    Choose it where the hand must go on turning without a wait, and joints up to 1.8 times as fast
+    as the hand, seldom up to 4.9 times, can be had.
     """
 
     gain: float = dimension(

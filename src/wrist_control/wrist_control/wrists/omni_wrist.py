@@ -41,6 +41,8 @@ class OmniWrist(Wrist):
     The gear drives do not roll with φ, so each turns about an axis that stands still. The shaft
     between the joints rides square to both drives, and the hand follows as in the double Hooke
     wrist. Locks where either drive is at ±90°, outside its cone.
+
+    Choose it where the double Hooke wrist would do and its drives shall stand still in a roll.
     """
 
     cone_half_angle: float = cone_half_angle()

@@ -40,6 +40,9 @@ class PitchYaw(Wrist):
     """Points the hand's z axis with two joints; locks at θ1 = ±90°, where z lies along θ2's axis.
 
     p and q are followed; the hand's roll is what the mechanism forces.
+
+    Choose it to point a camera or a light around its middle: two joints, and nothing in the way;
+    beyond 80° it has little to turn with, and at 90° no way to go on sideways.
     """
 
     default_joints: ClassVar[tuple[Joint, ...]] = (Joint('theta_1'), Joint('theta_2'))

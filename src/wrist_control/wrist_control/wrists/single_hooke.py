@@ -79,7 +79,11 @@ def cross_rods(radius: float) -> tuple[Rod, Rod]:
 
 @dataclass(frozen=True)
 class SingleHooke(Wrist):
-    """A Hooke joint whose driver shaft rolls; locks at θ = ±90°, well outside its cone."""
+    """A Hooke joint whose driver shaft rolls; locks at θ = ±90°, well outside its cone.
+
+    Choose it for small bends in little space: nothing locks inside its cone, and a roll, uneven
+    by 1 / cos β, passes through it from the forearm.
+    """
 
     cone_half_angle: float = cone_half_angle()
 

@@ -68,7 +68,9 @@ class LegConfiguration(Configuration):
 
 @dataclass(frozen=True)
 class Stewart(Wrist):
-    """Two platforms joined by six legs whose lengths are driven.
+    """Two platforms joined by six legs whose lengths are driven; locks at a quarter turn of yaw.
+
+    Choose it where the hand must also move along, or carry much, and small tilts are enough.
 
     Its joint positions come as a `LegConfiguration`; where plain numbers are given, they are taken
     to belong to the assembly that the home pose belongs to, and cost a forward-kinematics solve.

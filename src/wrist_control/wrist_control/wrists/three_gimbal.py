@@ -33,7 +33,12 @@ FORK, OUTER, INNER = 0.084, 0.072, 0.058
 
 @dataclass(frozen=True)
 class ThreeGimbal(Wrist):
-    """Three gimbals whose axes meet in one point; locks at θ = ±90°, where ψ and φ align."""
+    """Three gimbals whose axes meet in one point; locks at θ = ±90°, where ψ and φ align.
+
+    Choose it where the hand works around its middle and every orientation must be within reach:
+    it is the simplest wrist, no joint needs to be faster than the hand, and what lock costs is a
+    wait while ψ turns.
+    """
 
     default_joints: ClassVar[tuple[Joint, ...]] = (Joint('psi'), Joint('theta'), Joint('phi'))
 
