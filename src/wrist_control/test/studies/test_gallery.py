@@ -59,6 +59,14 @@ def test_a_moment_says_what_the_flight_does():
     assert 'slowed by psi' in said
 
 
+def test_a_hand_that_cannot_go_on_says_so_and_why():
+    shown = show('single_hooke')
+    figure = draw_moment('single_hooke', shown, len(shown.scenes) - 1)
+    said = ' '.join(text.get_text() for text in figure.texts)
+    assert 'cannot go on: cone' in said
+    assert 'speed   0 %' in said
+
+
 def test_three_moments_stand_side_by_side_in_one_scale():
     shown = show('carpal')
     figure = draw_moments('carpal', shown)

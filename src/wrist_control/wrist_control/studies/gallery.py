@@ -101,8 +101,10 @@ def draw_moment(name: str, shown: Show, index: int) -> Figure:
     _draw(axes, shown, index)
     figure.text(0.03, 0.95, name, fontsize=13)
     figure.text(0.97, 0.95, _doing(flight, index), fontsize=11, ha='right')
-    time, factor, margin = flight.time[index], flight.scale_factor[index], flight.margin[index]
-    words = f'{time:4.1f} s     speed {100.0 * factor:3.0f} %     margin {margin:.2f}'
+    factor, margin = flight.scale_factor[_step(flight, index)], flight.margin[index]
+    words = (
+        f'{flight.time[index]:4.1f} s     speed {100.0 * factor:3.0f} %     margin {margin:.2f}'
+    )
     figure.text(0.03, 0.03, words, fontsize=11)
     return figure
 
@@ -113,9 +115,14 @@ def _draw(axes: Axes, shown: Show, index: int) -> None:
     axes.set_ylim(shown.window[2:])
 
 
+def _step(flight: Flight, index: int) -> int:
+    """Return the step that is made at a moment: none begins at the last, but one ends there."""
+    return min(index, len(flight.time) - 2)
+
+
 def _doing(flight: Flight, index: int) -> str:
     """Return what holds the hand back at a moment, in a few words."""
-    limits = ', '.join(flight.limited[index])
+    limits = ', '.join(flight.limited[_step(flight, index)])
     if not flight.completed and index == len(flight.time) - 1:
         return f'cannot go on: {limits}' if limits else 'cannot go on'
     return f'slowed by {limits}' if limits else ''
