@@ -17,6 +17,7 @@ NODES = [
     'joint_simulator',
     'operator',
     'stewart_forward_kinematics',
+    'wrist_resolver',
 ]
 
 # The folders of files that come with the package.
