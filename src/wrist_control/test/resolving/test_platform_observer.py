@@ -57,3 +57,11 @@ def test_a_refused_reading_changes_nothing():
 def test_a_noise_for_half_of_the_legs_is_refused():
     with pytest.raises(InvalidValueError, match='length_noise has 3 values'):
         Observer(WRIST, ObserverSettings([1e-4] * 3, 0.5, 1.0))
+
+
+def test_lengths_that_no_platform_has_are_answered_without_a_step():
+    lengths = (0.1, 2.0, *WRIST.home[2:])
+    observed = Observer(WRIST, ObserverSettings([1e-4], math.inf, 1.0)).take(NAMES, lengths, 0.0)
+    assert observed.solution == (None, Status.UNREACHABLE, 0, math.inf, 0.0)
+    assert (observed.covariance, observed.twist) == (None, None)
+    assert 'leg_1' in observed.message
