@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wrist_control.resolving.delay_line import DelayLine
+from wrist_control.physics.delay_line import DelayLine
 
 
 def test_without_a_delay_a_value_holds_in_the_period_that_it_comes_in():

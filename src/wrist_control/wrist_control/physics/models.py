@@ -1,0 +1,37 @@
+"""Which function makes the mechanism of which wrist."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.physics import gimbals, stewart
+from wrist_control.physics.mechanism import Mechanism, Settings
+from wrist_control.wrists.wrist import Wrist
+
+# By the names of the registry of wrists, which are those of the modules that they are in.
+MODELS: dict[str, Callable[[Any, Settings], Mechanism]] = {
+    'three_gimbal': gimbals.three_gimbal,
+    'four_gimbal': gimbals.four_gimbal,
+    'roll_pitch_roll': gimbals.roll_pitch_roll,
+    'single_hooke': gimbals.single_hooke,
+    'pitch_yaw': gimbals.pitch_yaw,
+    'stewart': stewart.stewart,
+}
+DEFAULTS = Settings()
+
+
+def build(wrist: Wrist, settings: Settings = DEFAULTS) -> Mechanism:
+    """Return the mechanism of a wrist at its joints' zero, or where its loops are drawn.
+
+    Raises:
+        InvalidValueError: There is no mechanism for such a wrist.
+    """
+    name = type(wrist).__module__.rpartition('.')[2]
+    if name not in MODELS:
+        raise InvalidValueError(
+            f'There is no mechanism for {type(wrist).__name__}; there is one for each of '
+            f'{", ".join(MODELS)}.'
+        )
+    return MODELS[name](wrist, settings)
