@@ -1,13 +1,11 @@
 """A wrist that is flown over its physics, by topic only."""
 
-import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from sensor_msgs.msg import JointState
 
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
-from wrist_control.ros import convert
 from wrist_interfaces.msg import WristStatus
 
 RATE = 50.0

@@ -41,6 +41,7 @@ class Linkage:
         self._size = size
         self._settings = settings
         self._spec = mujoco.MjSpec()
+        self._spec.compiler.degree = False
         self._spec.option.timestep = settings.step
         self._spec.option.gravity = settings.gravity
         self._spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.physics import gimbals, stewart
+from wrist_control.physics import carpal, five_bar, gimbals, hooke, stewart
 from wrist_control.physics.mechanism import Mechanism, Settings
 from wrist_control.wrists.wrist import Wrist
 
@@ -16,7 +16,11 @@ MODELS: dict[str, Callable[[Any, Settings], Mechanism]] = {
     'four_gimbal': gimbals.four_gimbal,
     'roll_pitch_roll': gimbals.roll_pitch_roll,
     'single_hooke': gimbals.single_hooke,
+    'double_hooke': hooke.double_hooke,
+    'omni_wrist': hooke.omni_wrist,
+    'carpal': carpal.carpal,
     'pitch_yaw': gimbals.pitch_yaw,
+    'five_bar': five_bar.five_bar,
     'stewart': stewart.stewart,
 }
 DEFAULTS = Settings()
