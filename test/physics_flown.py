@@ -1,43 +1,99 @@
-"""A wrist that is flown over its physics, by topic only."""
+"""A wrist that is flown over its physics, by topic only, under a clock that ticks in lockstep."""
 
+import numpy as np
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from sensor_msgs.msg import JointState
 
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.ros import convert
 from wrist_interfaces.msg import WristStatus
 
-RATE = 50.0
-HEARD = {
-    'wrist_status': WristStatus,
-    'joint_command': JointState,
-    'joint_states': JointState,
-    'hand_pose': PoseStamped,
-    'true_hand_pose': PoseStamped,
-}
+RATE = 32.0
+COMMON = {'use_sim_time': True, 'rate': RATE}
+OF_PHYSICS = {'joint_states': JointState, 'true_hand_pose': PoseStamped}
+OF_RESOLVER = {'wrist_status': WristStatus, 'hand_pose': PoseStamped}
 
 
 class PhysicsFlown:
-    """Resolver and physics under one clock, and what they say at each tick."""
+    """The physics of a wrist, its resolver and an operator, and what they say at each tick."""
 
-    def __init__(self, graph, wrist, resolver=None, **physics):
-        self.graph, self.clock = graph, graph.lockstep(1.0 / RATE)
-        self._common = {'use_sim_time': True, 'rate': RATE}
-        self.physics = graph.start(PhysicsSimulator, **self._common, wrist=wrist, **physics)
-        self.clock.listen({name: HEARD[name] for name in ('joint_states', 'true_hand_pose')})
+    def __init__(self, graph, wrist, **physics):
+        self.graph, self.wrist = graph, wrist
+        self.clock = graph.lockstep(1.0 / RATE)
+        self.heard = self.clock.heard
+        self.physics = graph.start(PhysicsSimulator, **COMMON, wrist=wrist, **physics)
+        self.clock.listen(OF_PHYSICS)
         self.clock.begin()
-        self._wrist, self._resolver = wrist, resolver or {}
 
-    def start_resolver(self):
-        settings = {'require_joint_states': True, **self._resolver}
-        self.graph.start(Resolver, self._wrist, **self._common, **settings)
-        names = ('wrist_status', 'joint_command', 'hand_pose')
-        self.clock.listen({name: HEARD[name] for name in names[:1]})
-        for name in names[1:]:
-            self.clock.heard[name] = self.graph.listen(HEARD[name], name)
+    def resolve(self, **resolver):
+        """Start the resolver, and wait until it has taken over the joints."""
+        self.commands = self.graph.listen(JointState, 'joint_command')
+        self.graph.start(Resolver, self.wrist, **COMMON, require_joint_states=True, **resolver)
+        self.clock.listen(OF_RESOLVER)
+        self.clock.begin()
+        self.until(lambda: self.status.state == WristStatus.IDLE, 200)
 
-    def fly(self, maneuver):
-        self.graph.start(Operator, **self._common, maneuver=maneuver, listeners=2.0)
+    def fly(self, maneuver, ticks):
+        """Fly a maneuver to its end, or for so many ticks; return whether it was flown."""
+        operator = self.graph.start(Operator, **COMMON, maneuver=maneuver, listeners=2.0)
         self.clock.listen({'cmd_vel': TwistStamped})
         self.clock.begin()
+        self.until(lambda: any(self.commanded))
+        try:
+            return self.until(lambda: not any(self.commanded), ticks, strict=False)
+        finally:
+            del self.heard['cmd_vel']
+            self.graph.end(operator)
+
+    def until(self, condition, ticks=50, strict=True):
+        """Tick until something is true; return whether it was within so many ticks."""
+        for _ in range(ticks):
+            if condition():
+                return True
+            self.clock.tick()
+        assert not strict, f'not within {ticks} ticks; {self.status.message}'
+        return False
+
+    @property
+    def status(self):
+        return self.heard['wrist_status'][-1]
+
+    @property
+    def commanded(self):
+        return convert.twist_values(self.status.commanded)
+
+    def errors(self):
+        """Return how far the hand is from where it was told to be: stamp, rad, m, margin.
+
+        What is told at a tick is where to be at the next.
+        """
+        really = by_stamp(self.heard['true_hand_pose'])
+        margins = {key: status.margin for key, status in by_stamp(self.heard['wrist_status']).items()}
+        told = by_stamp(self.heard['hand_pose'])
+        return np.array(
+            [
+                (late, *between(told[soon].pose, really[late].pose), margins[soon])
+                for soon, late in zip(sorted(told), sorted(told)[1:], strict=False)
+            ]
+        )
+
+
+def by_stamp(messages):
+    """Return messages by their stamps, s."""
+    return {convert.seconds(message.header.stamp): message for message in messages}
+
+
+def between(one, other):
+    """Return the angle, rad, and the distance, m, between two poses of ROS."""
+    a, b = (
+        np.array([pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w])
+        for pose in (one, other)
+    )
+    apart = [
+        getattr(one.position, axis) - getattr(other.position, axis) for axis in ('x', 'y', 'z')
+    ]
+    # Twice the angle between quaternions, by its sine: its cosine could not tell small ones.
+    half = np.linalg.norm(a - b if a @ b > 0.0 else a + b) / 2.0
+    return 4.0 * np.arcsin(half), float(np.linalg.norm(apart))
