@@ -19,14 +19,14 @@ setup-%:
 	@scripts/setup $*
 
 .PHONY: test
-test: setup-test setup-docs  ## check the code with ruff and mypy, then run every test
+test: setup-test setup-docs setup-physics  ## check the code with ruff and mypy, then run every test
 	@lint=0; ./env python3 scripts/lint.py || lint=$$?; \
 	ROS_PYTHON_CHECK_FIELDS=1 ./env python3 -m pytest -n 2 || exit $$?; \
 	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
 	exit $$lint
 
 .PHONY: coverage
-coverage: setup-test setup-docs  ## run every test, and show in out/coverage/ which lines none of them runs
+coverage: setup-test setup-docs setup-physics  ## run every test, and show in out/coverage/ which lines none of them runs
 	@./env python3 -m coverage erase; tests=0; \
 	./env python3 -m coverage run -m pytest -n 2 || tests=$$?; \
 	./env python3 -m coverage combine --quiet && ./env python3 -m coverage report && \
@@ -67,6 +67,10 @@ compare: setup  ## fly every wrist through the same maneuvers and compare them
 .PHONY: dexterity
 dexterity: setup  ## map where each wrist can turn the hand well
 	@./env python3 -m wrist_control.studies.dexterity_maps
+
+.PHONY: judge
+judge: setup-physics  ## let MuJoCo move every wrist, and compare it with our kinematics
+	@./env python3 -m wrist_control.studies.judge
 
 .PHONY: gallery
 gallery: setup  ## draw every wrist as its mechanism, still and in motion

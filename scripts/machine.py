@@ -47,6 +47,7 @@ APT_OF_EXTRA = {
         'myst_parser': 'python3-myst-parser',
         'sphinx': 'python3-sphinx',
     },
+    'physics': {'mujoco': FROM_PIP},
     'test': {
         'coverage': 'python3-coverage',
         'hypothesis': 'python3-hypothesis',

@@ -23,7 +23,9 @@ PYTHONS = ('3.10.13', '3.11.7', '3.12.1', '3.13.0')
 # Those who only look at the wrists shall not wait for what checks the code.
 LIGHT = ('demo', 'compare', 'dexterity', 'hour', 'campaign')
 HEAVY = {
-    'test': {'setup-test', 'setup-docs'},
+    'test': {'setup-test', 'setup-docs', 'setup-physics'},
+    'coverage': {'setup-test', 'setup-docs', 'setup-physics'},
+    'judge': {'setup-physics'},
     'lint': {'setup-test'},
     'format': {'setup-test'},
     'bench': {'setup-test'},

@@ -60,6 +60,7 @@ setup(
     install_requires=['numpy>=1.26'],
     extras_require={
         'figures': ['matplotlib', 'pillow', 'rich'],
+        'physics': ['mujoco>=3.3', 'rich'],
         # ROS 2 Jazzy from its wheels; wrist_interfaces and tf2_msgs are built beside it.
         'ros': ['ros-jazzy-common-interfaces==5.3.6', 'ros-jazzy-rclpy[fastrtps]==7.1.6'],
         # By this name `colcon test` knows which tool runs the tests.

@@ -26,7 +26,8 @@ def omni_wrist(wrist: OmniWrist, settings: Settings) -> Mechanism:
 
     The slot of a bow is a curve around the centre of the first joint: what runs in it is a block
     that turns about the bow's own normal. It holds the shaft's middle by a pin that is free to
-    slide along the radius, which the joint holds already: both would fight. [McKinney1988], fig. 8.
+    slide along the radius, which the joint holds already: both would fight. [McKinney1988],
+    fig. 8.
     """
     linkage = Linkage(wrist.shaft_length, settings)
     names = [joint.name for joint in wrist.joints]

@@ -25,9 +25,9 @@ MASS, GYRATION = 0.2, 0.3
 ROTOR = 1.0
 # The same of a joint without drive. Without any, a loop of light links explodes.
 PASSIVE = 1e-3
-# A loop is pulled together over this many steps, and holds up to this share of any load: as hard
-# as the step allows.
-PULL, HOLD = 3.0, 0.9999
+# A loop is pulled together over this many steps, and takes this share of any load at once: as hard
+# as MuJoCo lets it. What it gives way to a load falls with the square of the step.
+PULL, HOLD = 2.0, 0.9999
 
 
 class Linkage:
@@ -71,6 +71,7 @@ class Linkage:
             pos=at,
             quat=(w, x, y, z),
             mass=MASS,
+            ipos=ORIGIN,
             inertia=(inertia,) * 3,
             explicitinertial=True,
             gravcomp=float(self._settings.balanced),
@@ -178,6 +179,7 @@ class Linkage:
                 name='payload',
                 pos=probe,
                 mass=payload,
+                ipos=ORIGIN,
                 inertia=(inertia,) * 3,
                 explicitinertial=True,
             )

@@ -76,6 +76,8 @@ class Mechanism:
         self._time = 0.0
         self.refresh()
         self._tune()
+        self._firm = 1.0
+        self._firm = self.firmness
         self._target = self.positions
         self._target_rates = np.zeros(len(self.joints))
 
@@ -95,6 +97,11 @@ class Mechanism:
         return self.data.actuator_force[self._servos].copy()
 
     @property
+    def target(self) -> np.ndarray:
+        """Where the servos are told to be by now, rad or m."""
+        return self._target.copy()
+
+    @property
     def hand_pose(self) -> Pose:
         """Where the hand is, forearm frame."""
         w, x, y, z = self.data.xquat[self._hand].tolist()
@@ -108,6 +115,12 @@ class Mechanism:
         body = mujoco.mjtObj.mjOBJ_XBODY
         mujoco.mj_objectVelocity(self.model, self.data, body, self._hand, found, 1)
         return np.concatenate([found[3:], found[:3]])
+
+    @property
+    def firmness(self) -> float:
+        """How well loops and still drives hold every link: 1 as at home, 0 where one is loose."""
+        _, rows = self._loops()
+        return float(np.linalg.svd(self._held(rows))[1][-1]) / self._firm
 
     def command(self, targets: Numbers, rates: Numbers | None = None) -> None:
         """Tell the servos where to go.
@@ -185,13 +198,16 @@ class Mechanism:
         rows = self.data.efc_J.reshape(-1, self.model.nv)
         return self.data.efc_pos[closed], rows[closed]
 
+    def _held(self, rows: np.ndarray) -> np.ndarray:
+        """Return what loops and drives see of each freedom."""
+        return np.vstack([rows, np.eye(self.model.nv)[self._freedoms]])
+
     def _close(self, positions: np.ndarray) -> None:
         for _ in range(MOST_STEPS):
             self.refresh()
             opened, rows = self._loops()
-            driven = np.eye(self.model.nv)[self._freedoms]
             missing = np.concatenate([-opened, positions - self.positions])
-            move = np.linalg.lstsq(np.vstack([rows, driven]), missing)[0]
+            move = np.linalg.lstsq(self._held(rows), missing)[0]
             mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
             if np.max(np.abs(move)) < CLOSED:
                 self.refresh()
@@ -204,14 +220,18 @@ class Mechanism:
     def _tune(self) -> None:
         """Make every servo as strong as what it carries at home needs, the others held."""
         _, rows = self._loops()
-        driven = np.eye(self.model.nv)[self._freedoms]
-        wanted = np.vstack([np.zeros((len(rows), len(driven))), np.eye(len(driven))])
-        moves = np.linalg.lstsq(np.vstack([rows, driven]), wanted)[0]
-        masses = np.zeros((self.model.nv, self.model.nv))
-        mujoco.mj_fullM(self.model, masses, self.data.qM)
-        carried = np.diag(moves.T @ masses @ moves)
+        count = len(self.joints)
+        wanted = np.vstack([np.zeros((len(rows), count)), np.eye(count)])
+        moves = np.linalg.lstsq(self._held(rows), wanted)[0]
+        carried = np.array([self._inertia(move) for move in moves.T])
         stiffness = carried * self.settings.bandwidth**2
         damping = carried * 2.0 * self.settings.damping_ratio * self.settings.bandwidth
         self.model.actuator_gainprm[self._servos, 0] = stiffness
         self.model.actuator_biasprm[self._servos, 1] = -stiffness
         self.model.actuator_biasprm[self._servos, 2] = -damping
+
+    def _inertia(self, move: np.ndarray) -> float:
+        """Return what a move of all freedoms carries, kg m² or kg."""
+        momentum = np.zeros(self.model.nv)
+        mujoco.mj_mulM(self.model, self.data, momentum, np.ascontiguousarray(move))
+        return float(move @ momentum)
