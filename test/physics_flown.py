@@ -11,6 +11,7 @@ from wrist_control.ros import convert
 from wrist_interfaces.msg import WristStatus
 
 RATE = 32.0
+SILENCE = 0.5
 COMMON = {'use_sim_time': True, 'rate': RATE}
 OF_PHYSICS = {'joint_states': JointState, 'true_hand_pose': PoseStamped}
 OF_RESOLVER = {'wrist_status': WristStatus, 'hand_pose': PoseStamped}
@@ -46,6 +47,11 @@ class PhysicsFlown:
         finally:
             del self.heard['cmd_vel']
             self.graph.end(operator)
+            self.pass_time(SILENCE)  # then another operator may lead
+
+    def pass_time(self, seconds):
+        for _ in range(round(seconds * RATE)):
+            self.clock.tick()
 
     def until(self, condition, ticks=50, strict=True):
         """Tick until something is true; return whether it was within so many ticks."""
@@ -70,7 +76,9 @@ class PhysicsFlown:
         What is told at a tick is where to be at the next.
         """
         really = by_stamp(self.heard['true_hand_pose'])
-        margins = {key: status.margin for key, status in by_stamp(self.heard['wrist_status']).items()}
+        margins = {
+            key: status.margin for key, status in by_stamp(self.heard['wrist_status']).items()
+        }
         told = by_stamp(self.heard['hand_pose'])
         return np.array(
             [
