@@ -11,7 +11,7 @@ from wrist_control.ros import convert
 from wrist_interfaces.msg import WristStatus
 
 RATE = 32.0
-SILENCE = 0.5
+SILENCE = 0.5  # after it another operator may lead, s
 COMMON = {'use_sim_time': True, 'rate': RATE}
 OF_PHYSICS = {'joint_states': JointState, 'true_hand_pose': PoseStamped}
 OF_RESOLVER = {'wrist_status': WristStatus, 'hand_pose': PoseStamped}
@@ -36,31 +36,37 @@ class PhysicsFlown:
         self.clock.begin()
         self.until(lambda: self.status.state == WristStatus.IDLE, 200)
 
-    def fly(self, maneuver, ticks):
-        """Fly a maneuver to its end, or for so many ticks; return whether it was flown."""
+    def start(self, maneuver):
+        """Start an operator, and wait until it is followed."""
         operator = self.graph.start(Operator, **COMMON, maneuver=maneuver, listeners=2.0)
         self.clock.listen({'cmd_vel': TwistStamped})
         self.clock.begin()
         self.until(lambda: any(self.commanded))
-        try:
-            return self.until(lambda: not any(self.commanded), ticks, strict=False)
-        finally:
-            del self.heard['cmd_vel']
-            self.graph.end(operator)
-            self.pass_time(SILENCE)  # then another operator may lead
+        return operator
+
+    def stop(self, operator):
+        """End an operator, and wait until another one may lead."""
+        del self.heard['cmd_vel']
+        self.graph.end(operator)
+        self.pass_time(SILENCE)
+
+    def fly(self, maneuver, ticks):
+        """Fly a maneuver to its end, or for so many ticks."""
+        operator = self.start(maneuver)
+        self.until(lambda: not any(self.commanded), ticks, strict=False)
+        self.stop(operator)
 
     def pass_time(self, seconds):
         for _ in range(round(seconds * RATE)):
             self.clock.tick()
 
     def until(self, condition, ticks=50, strict=True):
-        """Tick until something is true; return whether it was within so many ticks."""
+        """Tick until something is true; or, where that is not necessary, for so many ticks."""
         for _ in range(ticks):
             if condition():
-                return True
+                return
             self.clock.tick()
         assert not strict, f'not within {ticks} ticks; {self.status.message}'
-        return False
 
     @property
     def status(self):
