@@ -28,6 +28,8 @@ PASSIVE = 1e-3
 # A loop is pulled together over this many steps, and takes this share of any load at once: as hard
 # as MuJoCo lets it. What it gives way to a load falls with the square of the step.
 PULL, HOLD = 2.0, 0.9999
+# Where the solver stops: at 0 it would go on in its round-off, seven times as long.
+TOLERANCE = 1e-14
 
 
 class Linkage:
@@ -40,12 +42,13 @@ class Linkage:
     def __init__(self, size: float, settings: Settings) -> None:
         self._size = size
         self._settings = settings
+        self._softness = (PULL * settings.step, 1.0), (HOLD, HOLD, 0.001, 0.5, 2.0)
         self._spec = mujoco.MjSpec()
         self._spec.compiler.degree = False
         self._spec.option.timestep = settings.step
         self._spec.option.gravity = settings.gravity
         self._spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
-        self._spec.option.tolerance = 0.0
+        self._spec.option.tolerance = TOLERANCE
         self._spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
         self.forearm = self._spec.worldbody
 
@@ -115,6 +118,9 @@ class Linkage:
             ref=home,
             armature=(ROTOR if driven else PASSIVE) * lever,
             frictionloss=self._settings.friction if driven else 0.0,
+            # As hard as a loop, or what shall stand still creeps.
+            solref_friction=self._softness[0],
+            solimp_friction=self._softness[1],
         )
         if driven:
             limit = self._settings.effort_limit
@@ -160,8 +166,8 @@ class Linkage:
             objtype=what,
             name1=ends[0],
             name2=ends[1],
-            solref=(PULL * self._settings.step, 1.0),
-            solimp=(HOLD, HOLD, 0.001, 0.5, 2.0),
+            solref=self._softness[0],
+            solimp=self._softness[1],
         )
 
     def finished(self, hand: mujoco.MjsBody, probe: Vector, joints: Iterable[str]) -> Mechanism:

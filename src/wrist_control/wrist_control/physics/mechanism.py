@@ -185,10 +185,10 @@ class Mechanism:
 
     def _step(self) -> None:
         """Make a step, with whatever follows from its end known afterwards."""
-        self._target += self.settings.step * self._target_rates
         # A servo brakes by its rate: told ahead, it lags by nothing at a steady rate.
         ahead = 2.0 * self.settings.damping_ratio / self.settings.bandwidth
         self.data.ctrl[self._servos] = self._target + ahead * self._target_rates
+        self._target += self.settings.step * self._target_rates
         mujoco.mj_step2(self.model, self.data)
         mujoco.mj_step1(self.model, self.data)
 

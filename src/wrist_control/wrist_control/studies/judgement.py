@@ -32,7 +32,7 @@ LOADED = Settings(step=0.0002, payload=1.0, gravity=GRAVITY, balanced=True)
 # of the largest effort.
 BOUND = 1e-6
 # How far from home joints are drawn: rad, or as a share of the size for those that slide.
-SPREAD = {'revolute': 1.0, 'prismatic': 0.15}
+SPREAD = {'revolute': 1.0, 'prismatic': 0.4}
 # Poses are this far from singular, and so is the straight way between them, looked at so often.
 MARGIN, LOOKS = 0.2, 9
 # And the mechanism itself holds its hand this firmly there: the Carpal wrist has places where it
@@ -65,8 +65,8 @@ class Verdict(NamedTuple):
 
     @property
     def worst(self) -> float:
-        """The largest of the differences."""
-        return max(self.position, self.attitude, self.motion, self.effort)
+        """The largest of the differences, no number where one is none."""
+        return float(np.max([self.position, self.attitude, self.motion, self.effort]))
 
 
 class _Found(NamedTuple):
@@ -186,7 +186,7 @@ def _look(
     nudge *= rng.choice((-1.0, 1.0), len(aim)) * rng.uniform(0.5, 1.0, len(aim))
     for target in (aim - nudge, aim + nudge, aim):
         mechanism.command(target)
-        rested &= watch.run(mechanism.settle)
+        rested = watch.run(mechanism.settle) and rested
         ends.append((mechanism.positions, mechanism.hand_pose))
     (first, before), (second, after), (positions, hand) = ends
     said = wrist.forward(_plain(positions))
