@@ -107,7 +107,7 @@ class DrivenMechanism:
         for name, friction in self._friction.items():
             self._mechanism.model.joint(name).frictionloss = STUCK if name == stuck else friction
 
-    def advance(self, told: Sequence[float]) -> Reading:
+    def advance(self, told: Sequence[float] | np.ndarray) -> Reading:
         """Let a period pass, and return what is measured at its end.
 
         Args:
