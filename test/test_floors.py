@@ -24,6 +24,7 @@ ROS = ('rclpy', 'rcl_interfaces', 'wrist_interfaces', 'builtin_interfaces', 'ame
 ROS_ENDINGS = ('_msgs', '_srvs')
 LOWEST_WITH_ROS = FLOORS['ros']
 LOWEST_WITH_PICTURES = FLOORS['studies']
+PHYSICS = 'mujoco'
 NOT_IN_CORE = ('matplotlib', 'PIL', 'rich', 'scipy')
 NO_CLOCK_NO_FILE = ('time', 'datetime', 'pathlib', 'os', 'io', 'threading', 'asyncio')
 
@@ -108,6 +109,11 @@ def imported(module):
     return names
 
 
+def roots(module):
+    """Return the packages that a module names in its imports."""
+    return {name.partition('.')[0] for name in imported(module)}
+
+
 def _named_by(node):
     """Return the modules of ours that `from a import b` names: a.b where that is one, else a."""
     whole = {f'{node.module}.{alias.name}' for alias in node.names}
@@ -180,7 +186,17 @@ def test_the_core_can_be_imported_without_matplotlib_rich_and_scipy():
 @pytest.mark.parametrize('name', [name for name in MODULES if is_core(name)])
 def test_the_core_names_no_clock_no_file_and_no_picture_even_inside_a_function(name):
     above = {*NOT_IN_CORE, *NO_CLOCK_NO_FILE}
-    assert {package.partition('.')[0] for package in imported(name)}.isdisjoint(above)
+    assert roots(name).isdisjoint(above)
+
+
+def test_only_the_room_of_physics_names_mujoco():
+    assert {room_of(name) for name in MODULES if PHYSICS in roots(name)} == {'physics'}
+
+
+def test_whoever_does_not_ask_for_physics_needs_no_mujoco():
+    without = [name for name in below(LOWEST_WITH_ROS) if room_of(name) != 'physics']
+    found = imports_without(without, [PHYSICS])
+    assert {name.rpartition('.')[2] for name in found} == {'judge', 'judgement'}
 
 
 def test_the_package_takes_only_numpy():

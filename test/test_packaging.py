@@ -39,6 +39,8 @@ ROOMS = ('wrist_control', 'launch')
 # What the launch file starts of other packages, but where it is installed.
 OPTIONAL = {'rviz2'}
 BUILD = "from setuptools import build_meta as b; b.build_sdist('dist'); b.build_wheel('dist')"
+# What only an extra brings: ROS's lists have no package of it.
+EXTRA = {'mujoco'}
 # What tools leave in the package's folder.
 MADE = ('__pycache__', '.hypothesis', '.pytest_cache', 'build', 'wrist_control.egg-info')
 WITHOUT_ROS = {name: value for name, value in os.environ.items() if name != 'AMENT_PREFIX_PATH'}
@@ -124,6 +126,7 @@ def test_the_library_flies_where_there_is_numpy_and_nothing_else(installed):
     assert told.startswith(f'wrist_control {manifest(CONTROL).findtext("version")}: ')
     assert all(wrist in told for wrist in wrist_control.WRISTS)
     assert 'without matplotlib, PIL, rich' in told
+    assert 'without mujoco' in told
     assert 'without rclpy, wrist_interfaces' in ' '.join(told.split())
 
 
@@ -136,6 +139,11 @@ def test_what_is_said_with_everything_installed_needs_nothing_more():
     example = re.findall(r'^  ((?:from|flight|print).*)$', told, re.MULTILINE)
     done = subprocess.run([sys.executable, '-c', '\n'.join(example)], capture_output=True)
     assert done.stdout.endswith(b's lost in gimbal lock\n'), done.stderr
+
+
+def test_without_its_extra_the_physics_says_what_brings_it(installed):
+    found = 'try:\n  import wrist_control.physics\nexcept ImportError as error:\n  print(error)'
+    assert "pip install 'wrist_control[physics]'" in run(installed, '-c', found)
 
 
 def test_where_there_is_no_ros_there_are_no_executables(installed, dist):
@@ -157,7 +165,9 @@ def test_the_wheel_says_what_it_needs(dist):
         line for line in metadata.splitlines() if 'Requires-Dist' in line and ';' not in line
     ]
     assert always == ['Requires-Dist: numpy>=1.26']
-    assert {'figures', 'ros', 'test'} <= set(re.findall(r'Provides-Extra: (\w+)', metadata))
+    assert {'figures', 'physics', 'ros', 'test'} <= set(
+        re.findall(r'Provides-Extra: (\w+)', metadata)
+    )
     assert 'Requires-Python: >=3.10' in metadata
 
 
@@ -209,7 +219,7 @@ def test_the_manifest_names_everything_that_is_imported():
     named = {
         one.text for kind in ('depend', 'exec_depend') for one in manifest(CONTROL).iter(kind)
     }
-    needed = {KEYS.get(name, name) for name in imports() | started() - OPTIONAL}
+    needed = {KEYS.get(name, name) for name in imports() - EXTRA | started() - OPTIONAL}
     assert needed <= named, needed - named
 
 
@@ -219,6 +229,7 @@ def test_the_manifest_names_nothing_that_is_not_imported():
     }
     assert named - {KEYS.get(name, name) for name in imports() | started() - OPTIONAL} == set()
     assert started() >= OPTIONAL
+    assert imports() >= EXTRA
 
 
 def test_the_tests_of_the_package_alone_are_found_and_pass(tmp_path):

@@ -16,6 +16,7 @@ WIDTH = 79
 INDENT = 13
 # What the rest of the package imports beside numpy, and what it is needed for.
 FIGURES = ('matplotlib', 'PIL', 'rich')
+PHYSICS = ('mujoco',)
 ROS = ('rclpy', 'wrist_interfaces')
 
 EXAMPLE = f"""\
@@ -46,6 +47,14 @@ def figures() -> str:
     return f'python -m {PACKAGE}.studies.compare flies every wrist and draws them side by side'
 
 
+def physics() -> str:
+    """Say whether MuJoCo can move the wrists."""
+    absent = missing(PHYSICS)
+    if absent:
+        return f"without {', '.join(absent)}: pip install '{PACKAGE}[physics]'"
+    return f'python -m {PACKAGE}.studies.judge lets MuJoCo judge the kinematics'
+
+
 def ros() -> str:
     """Say whether there are nodes to run."""
     absent = missing(ROS)
@@ -64,6 +73,7 @@ def lines() -> Iterator[str]:
         'wrists': ', '.join(WRISTS),
         'maneuvers': ', '.join(MANEUVERS),
         'figures': figures(),
+        'physics': physics(),
         'ROS 2': ros(),
     }
     for name, text in told.items():

@@ -21,6 +21,10 @@ class UnreachableError(WristError, ValueError):
         self.limit = limit
 
 
+class UnstableError(WristError, ArithmeticError):
+    """Physics whose step is too long for what moves; the mechanism has to start again."""
+
+
 class RefusedError(WristError, ValueError):
     """A message that does not count; nothing has changed.
 

@@ -8,6 +8,7 @@ import pytest
 pytest.importorskip('mujoco', reason='the extra physics is not installed')
 
 from wrist_control import WRISTS, UnreachableError, make_wrist
+from wrist_control.errors import UnstableError
 from wrist_control.physics.mechanism import Settings
 from wrist_control.physics.models import build
 
@@ -140,3 +141,12 @@ def test_what_does_not_come_to_rest_is_said():
     mechanism = gimbals()
     mechanism.command_rates((0.1, 0.0, 0.0))
     assert not mechanism.settle(longest=0.2)
+
+
+def test_physics_that_is_torn_apart_is_said(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    mechanism = build(make_wrist('omni_wrist'), Settings(step=0.005, bandwidth=400.0))
+    mechanism.command((3.0, 1.0, -1.0))
+    with pytest.raises(UnstableError, match=r'steps of 0\.005 s; choose shorter ones'):
+        mechanism.advance(5.0)
+    assert list(tmp_path.iterdir()) == []

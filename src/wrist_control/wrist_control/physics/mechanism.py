@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 import mujoco
 import numpy as np
 
-from wrist_control.errors import UnreachableError
+from wrist_control.errors import UnreachableError, UnstableError
 from wrist_control.rotations import Pose, Vector
 
 # Nothing moves faster than this in a mechanism at rest, rad/s or m/s.
@@ -21,6 +21,8 @@ AT_REST = 1e-9
 STAGES = 50
 # A loop is closed when Newton's step is below this, rad or m; it has this many steps for it.
 CLOSED, MOST_STEPS = 1e-11, 12
+# Nothing that is stable is quicker than this, rad/s² or m/s².
+MAD = 1e7
 
 
 Numbers: TypeAlias = 'Sequence[float] | np.ndarray'
@@ -141,7 +143,11 @@ class Mechanism:
         self.data.xfrc_applied[self._hand] = [*force, *torque]
 
     def advance(self, seconds: float) -> None:
-        """Let time pass; what is less than a step is kept for the next call, s."""
+        """Let time pass; what is less than a step is kept for the next call, s.
+
+        Raises:
+            UnstableError: The step is too long for what moves.
+        """
         self._time += seconds
         while self.data.time < self._time - 0.5 * self.settings.step:
             self._step()
@@ -151,6 +157,9 @@ class Mechanism:
 
         Args:
             longest: Give up after this time, s.
+
+        Raises:
+            UnstableError: The step is too long for what moves.
         """
         for _ in range(round(longest / self.settings.step)):
             self._step()
@@ -190,6 +199,11 @@ class Mechanism:
         self.data.ctrl[self._servos] = self._target + ahead * self._target_rates
         self._target += self.settings.step * self._target_rates
         mujoco.mj_step2(self.model, self.data)
+        if not np.max(np.abs(self.data.qacc)) < MAD:
+            raise UnstableError(
+                f'The mechanism was torn apart at {self.data.time:g} s with steps of '
+                f'{self.settings.step:g} s; choose shorter ones, or a smaller bandwidth.'
+            )
         mujoco.mj_step1(self.model, self.data)
 
     def _loops(self) -> tuple[np.ndarray, np.ndarray]:
