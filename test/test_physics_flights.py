@@ -76,6 +76,15 @@ def test_a_joint_that_sticks_in_motion_stops_the_hand_in_a_ramp(graph, wrist):
     flown.stop(operator)
 
 
+def test_servos_that_are_told_rates_follow_as_well(graph):
+    """Nothing corrects what a lost message leaves behind: the hand is where they add up to."""
+    flown = PhysicsFlown(graph, 'three_gimbal', command='joint_velocity_command', **LOADED)
+    flown.resolve()
+    flown.fly('stick', 100)
+    assert np.ptp([state.position for state in flown.heard['joint_states']], axis=0).max() > 0.2
+    assert flown.errors()[:, 1].max() < 2.0 * TURN
+
+
 def test_a_servo_that_can_do_no_more_stops_the_hand_in_a_ramp(graph):
     """The hand stands upright at first, and its payload is heavier the further it is tilted."""
     flown = PhysicsFlown(

@@ -35,7 +35,3 @@ class RefusedError(WristError, ValueError):
     def __init__(self, reason: str, sentence: str) -> None:
         super().__init__(sentence)
         self.reason = reason
-
-
-class DivergedError(WristError, ArithmeticError):
-    """A simulated mechanism whose physics has no answer any more, one sentence."""

@@ -11,7 +11,7 @@ from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 
-from wrist_control.errors import DivergedError, RefusedError
+from wrist_control.errors import RefusedError, UnstableError
 from wrist_control.nodes.physics_settings import (
     POSITIONS,
     SPECS,
@@ -59,7 +59,7 @@ class PhysicsSimulator(GuardedNode):
         self._start = self._mechanism.reading.positions
         self._names = [values['joint_prefix'] + joint.name for joint in self._wrist.joints]
         self._period = 1.0 / values['rate']
-        self._cost, self._diverged = 0.0, ''
+        self._cost, self._torn = 0.0, ''
         self._commands: LatestMessage[tuple[float, ...]] = LatestMessage()
         self._heard = -float('inf')
         self.watch(self._check, self._apply)
@@ -112,15 +112,15 @@ class PhysicsSimulator(GuardedNode):
         return self._commands.at(now) or (0.0,) * len(self._names)
 
     def _tick(self) -> None:
-        if self._diverged:
+        if self._torn:
             return  # whoever drives these joints hears that they are silent
         now = self.get_clock().now()
         began = time.perf_counter()
         try:
             reading = self._mechanism.advance(self._told(convert.seconds_of(now.nanoseconds)))
-        except DivergedError as error:
-            self._diverged = str(error)
-            self.get_logger().error(self._diverged)
+        except UnstableError as error:
+            self._torn = str(error)
+            self.get_logger().error(self._torn)
             return
         self._cost += NEWEST_SHARE * (time.perf_counter() - began - self._cost)
         stamp = now.to_msg()
@@ -145,12 +145,13 @@ class PhysicsSimulator(GuardedNode):
             self._names, reading.positions, reading.efforts, strict=True
         ):
             values[name] = f'{position:.6f}, effort {effort:.4f}'
-        if self._diverged:
-            return ERROR, self._diverged, values
+        if self._torn:
+            return ERROR, self._torn, values
         if self._values['stuck_joint']:
             return WARN, f'{self._values["stuck_joint"]} sticks, as it was told to.', values
         if share > 1.0 and not self.simulated:
-            return WARN, f'The physics takes {share:.1f} times real time; lower the rate.', values
+            sentence = f'The physics takes {share:.1f} times real time; '
+            return WARN, f'{sentence}lower the rate, or lengthen physics_step.', values
         return OK, f'Simulating the mechanism of {self._values["wrist"]}.', values
 
 

@@ -9,19 +9,18 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from wrist_control.errors import DivergedError
+from wrist_control.errors import UnstableError
 from wrist_control.physics.delay_line import DelayLine
-from wrist_control.physics.linkage import HOLD, PULL
 from wrist_control.physics.mechanism import Mechanism
 from wrist_control.rotations import Pose
 from wrist_control.wrists.joint import Joint
 
-# Faster than this, rad/s or m/s, no mechanism moves: the physics has diverged.
+# Faster than this, rad/s or m/s, no mechanism moves: it was torn apart.
 FASTEST = 1e4
 # A loop or a gear that is open by more than this, m or rad, no longer holds anything together.
 TORN = 0.02
-# MuJoCo's solver ends where it improves less than this: in a third of the time that it takes to
-# round-off, and with the same path of the hand to six figures.
+# Where MuJoCo's solver stops: sooner than a judge needs, and with the same path of the hand to six
+# figures.
 TOLERANCE = 1e-10
 # What a stuck joint holds against, N·m or N: far above what any servo or payload does.
 STUCK = 1e6
@@ -85,7 +84,7 @@ class DrivenMechanism:
 
         Raises:
             UnreachableError: It cannot be assembled there.
-            DivergedError: It can, but the physics has no answer there.
+            UnstableError: It can, but the physics has no answer there.
         """
         self._mechanism, self._by_rates = mechanism, drives.by_rates
         self._lower = np.array([joint.lower for joint in joints])
@@ -104,8 +103,10 @@ class DrivenMechanism:
         Args:
             stuck: Name of the joint; empty for none.
         """
+        model = self._mechanism.model
         for name, friction in self._friction.items():
-            self._mechanism.model.joint(name).frictionloss = STUCK if name == stuck else friction
+            freedom = model.joint(name).dofadr[0]
+            model.dof_frictionloss[freedom] = STUCK if name == stuck else friction
 
     def advance(self, told: Sequence[float] | np.ndarray) -> Reading:
         """Let a period pass, and return what is measured at its end.
@@ -115,7 +116,7 @@ class DrivenMechanism:
                 arrives after the delay.
 
         Raises:
-            DivergedError: The physics has no answer; it will have none any more.
+            UnstableError: The physics has no answer; it will have none any more.
         """
         for seconds, arrived in self._line.hand_on(tuple(told)):
             self._tell_servos(np.array(arrived), seconds)
@@ -125,18 +126,12 @@ class DrivenMechanism:
 
     def _build_in(self, drives: Drives) -> None:
         model = self._mechanism.model
-        # Rather than begin again somewhere else without a word, MuJoCo shall go on to a number
-        # that is none; and write no file about it.
-        model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
-        mujoco.set_mju_user_warning(lambda sentence: None)
+        mujoco.set_mju_user_warning(lambda sentence: None)  # it would write a file about each
         model.opt.tolerance = TOLERANCE
         for name, limit in zip(self._friction, drives.effort_limits, strict=True):
-            servo, freedom = model.actuator(name), model.joint(name).dofadr[0]
-            servo.forcelimited = math.isfinite(limit)
-            servo.forcerange = (-limit, limit) if math.isfinite(limit) else (0.0, 0.0)
-            # As hard as the step allows: a joint that is held by friction shall not creep.
-            model.dof_solref[freedom] = (PULL * model.opt.timestep, 1.0)
-            model.dof_solimp[freedom, :2] = HOLD
+            servo = model.actuator(name).id
+            model.actuator_forcelimited[servo] = math.isfinite(limit)
+            model.actuator_forcerange[servo] = (-limit, limit) if math.isfinite(limit) else 0.0
         self.stick('')
 
     def _tell_servos(self, arrived: np.ndarray, seconds: float) -> None:
@@ -154,9 +149,9 @@ class DrivenMechanism:
         pose = mechanism.hand_pose
         numbers = (*positions, *rates, *efforts, *pose.quaternion, *pose.position)
         if not np.isfinite(numbers).all() or np.max(np.abs(rates)) > FASTEST:
-            raise DivergedError(_diverged('its numbers are no motion any more'))
+            raise UnstableError(_torn('its numbers are no motion any more'))
         if (gap := self._widest_gap()) > TORN:
-            raise DivergedError(_diverged(f'its loops are open by {gap:.2g} m (rad)'))
+            raise UnstableError(_torn(f'its loops are open by {gap:.2g} m (rad)'))
         return Reading(
             tuple(positions.tolist()), tuple(rates.tolist()), tuple(efforts.tolist()), pose
         )
@@ -167,8 +162,8 @@ class DrivenMechanism:
         return float(np.max(np.abs(gaps), initial=0.0))
 
 
-def _diverged(what: str) -> str:
+def _torn(what: str) -> str:
     return (
-        f'The physics has diverged: {what}; start it again with a smaller physics_step, softer '
-        'servos, or a lighter payload.'
+        f'The mechanism was torn apart: {what}; choose a shorter step of the physics, or a '
+        'smaller bandwidth.'
     )

@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from wrist_control.errors import DivergedError
+from wrist_control.errors import UnstableError
 from wrist_control.flight import Flight, fly
 from wrist_control.operating.maneuvers import BARKER_SPEED, stick
 from wrist_control.physics.driven import DrivenMechanism, Drives
@@ -95,7 +95,7 @@ def follow(flight: Flight, case: Case) -> Errors:
     would be there.
 
     Raises:
-        DivergedError: The physics has no answer.
+        UnstableError: The physics has no answer.
     """
     wrist, count = flight.wrist, len(flight.wrist.joints)
     settings = Settings(
@@ -127,7 +127,7 @@ def study(seconds: float = SECONDS) -> dict[str, dict[str, Errors | None]]:
         for case, given in CASES.items():
             try:
                 found[name][case] = follow(flight, given)
-            except DivergedError:
+            except UnstableError:
                 found[name][case] = None
     return found
 
