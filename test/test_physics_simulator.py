@@ -13,12 +13,21 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
 from wrist_control import WRISTS, WristError, make_wrist
+from wrist_control.nodes.physics_settings import SPECS, driven
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 
 from .physics_flown import RATE, PhysicsFlown
 
 NAMES = ['psi', 'theta', 'phi']
+LIGHT = {'payload': 0.1, 'joint_friction': [0.01]}
 CALM = {'gravity': [0.0, 0.0, 0.0]}
+
+
+def reached(parameters):
+    """Return where a mechanism of some parameters is, period by period, on its way."""
+    defaults = {spec.name: spec.default for spec in SPECS}
+    mechanism = driven(make_wrist('double_hooke'), {**defaults, **LIGHT, **parameters})
+    return [mechanism.advance((0.1, 0.1, 0.1)).positions for _ in range(30)]
 
 
 def state_of(message):
@@ -140,6 +149,26 @@ def test_a_joint_sticks_while_stuck_joint_says_so_and_diagnostics_say_it_too(gra
     )
 
 
+@pytest.mark.parametrize(
+    ('parameter', 'value'),
+    [
+        ('servo_bandwidth', 20.0),
+        ('servo_damping', 0.3),
+        ('effort_limits', [0.05, 5.0, 5.0]),
+        ('joint_friction', [0.5, 0.0, 0.0]),
+        ('payload', 1.0),
+        ('gravity', [0.0, 9.8, 0.0]),
+        ('loop_delay', 0.1),
+        ('physics_step', 0.002),
+        ('stuck_joint', 'psi'),
+        ('balanced', True),
+        ('initial_positions', [0.05]),
+    ],
+)
+def test_every_parameter_of_the_mechanism_changes_what_happens(parameter, value):
+    assert np.abs(np.subtract(reached({}), reached({parameter: value}))).max() > 1e-5
+
+
 def test_a_prefix_and_a_namespace_come_before_names(graph):
     graph.start(PhysicsSimulator, namespace='/left', joint_prefix='l_', **CALM)
     states = graph.listen(JointState, '/left/joint_states')
@@ -221,6 +250,7 @@ WITHOUT_MUJOCO = """
 import sys
 sys.modules['mujoco'] = None
 sys.argv[0] = 'physics_simulator'
+from wrist_control.nodes.physics_settings import SPECS, driven
 from wrist_control.nodes.physics_simulator import main
 main()
 """
