@@ -6,6 +6,7 @@ import sys
 
 import numpy as np
 import pytest
+from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import PoseStamped
 from rclpy.parameter import Parameter
@@ -44,12 +45,12 @@ class Told:
         self.publisher = graph.publisher(kind, topic)
         self.diagnostics = graph.listen(DiagnosticArray, '/diagnostics')
 
-    def tell(self, values, names=NAMES):
-        message = (
-            JointState(name=names, position=values)
-            if self.kind is JointState
-            else Float64MultiArray(data=values)
-        )
+    def tell(self, values, names=NAMES, stamp=None):
+        if self.kind is JointState:
+            message = JointState(name=names, position=values)
+            message.header.stamp = stamp or Time()
+        else:
+            message = Float64MultiArray(data=values)
         self.publisher.publish(message)
         self.graph.spin(0.1)
 
@@ -95,6 +96,16 @@ def test_it_goes_where_joint_command_says_and_stays_there(graph):
     last = told.states(0.5)[-1]
     assert list(last.position) == pytest.approx([0.1, -0.2, 0.3], abs=1e-6)
     assert list(told.states(1.0)[-1].position) == pytest.approx([0.1, -0.2, 0.3], abs=1e-6)
+
+
+def test_a_command_counts_from_the_first_tick_after_its_stamp(graph):
+    told = Told(graph, **CALM)
+    now = told.states(1.0 / RATE)[-1].header.stamp
+    later = now.sec * 10**9 + now.nanosec + round(1e9 / RATE)
+    told.tell([0.3] * 3, stamp=Time(sec=later // 10**9, nanosec=later % 10**9))
+    first, second = (state.position[0] for state in told.states(2.0 / RATE))
+    assert first == pytest.approx(0.0, abs=1e-9)
+    assert second > 0.1
 
 
 def test_it_moves_as_joint_velocity_command_says_and_stops_when_that_falls_silent(graph):

@@ -9,7 +9,7 @@ pytest.importorskip('mujoco', reason='`make setup-physics` gets it')
 
 from wrist_control.errors import UnreachableError, UnstableError
 from wrist_control.physics.driven import DrivenMechanism, Drives
-from wrist_control.physics.mechanism import Settings
+from wrist_control.physics.mechanism import Mechanism, Settings
 from wrist_control.physics.models import build
 from wrist_control.wrists import WRISTS, make_wrist
 
@@ -145,6 +145,34 @@ def test_what_is_torn_apart_is_said_and_never_read(wrist, tmp_path, monkeypatch)
     with pytest.raises(UnstableError, match=r'^The mechanism was torn apart.*; choose'):
         shake(mechanism)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_loops_that_are_pulled_open_are_said():
+    mechanism = driven('stewart')
+    with pytest.raises(UnstableError, match=r'its loops are open by 0\.\d+ m'):
+        passed(mechanism, (3.0, 0.3, -3.0, 1.0, 2.0, 0.1), 0.5)
+
+
+@pytest.mark.parametrize('what', ['positions', 'rates', 'efforts'])
+def test_a_number_that_is_none_is_no_reading(what, monkeypatch):
+    mechanism = driven()
+    monkeypatch.setattr(Mechanism, what, np.array([0.0, math.nan, 0.0]))
+    with pytest.raises(UnstableError, match='not every number is finite'):
+        mechanism.advance((0.0, 0.0, 0.0))
+
+
+def test_mujoco_itself_writes_neither_a_file_nor_a_word(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    moved = build(make_wrist('carpal'))
+    home = tuple(moved.positions)
+    mechanism = DrivenMechanism(
+        moved, make_wrist('carpal').joints, Drives(PERIOD, 0.0, [1.0] * 3, [0.0] * 3), home
+    )
+    moved.data.qvel[:] = 1e12
+    with pytest.raises(UnstableError):
+        mechanism.advance(home)
+    assert list(tmp_path.iterdir()) == []
+    assert capfd.readouterr() == ('', '')
 
 
 def test_what_was_torn_apart_stays_so():
