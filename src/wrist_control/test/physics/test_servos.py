@@ -105,6 +105,21 @@ def test_short_calls_and_long_ones_pass_the_same_time():
     assert short.positions.tolist() == long.positions.tolist()
 
 
+def test_time_passes_as_told_after_rest_and_after_a_new_start():
+    mechanism = gimbals()
+    for tenth in range(1, 11):
+        mechanism.advance(0.1)
+        assert mechanism.data.time == pytest.approx(0.1 * tenth, abs=1e-9)
+    mechanism.command(AIM)
+    assert mechanism.settle()
+    rested = mechanism.data.time
+    mechanism.advance(0.1)
+    assert mechanism.data.time == pytest.approx(rested + 0.1, abs=1e-9)
+    mechanism.start_at(AIM)
+    mechanism.advance(0.1)
+    assert mechanism.data.time == pytest.approx(0.1, abs=1e-9)
+
+
 @pytest.mark.parametrize('name', ['omni_wrist', 'carpal', 'five_bar', 'stewart'])
 def test_physics_is_the_same_in_every_run(name):
     ends = []
@@ -150,3 +165,12 @@ def test_physics_that_is_torn_apart_is_said(tmp_path, monkeypatch):
     with pytest.raises(UnstableError, match=r'steps of 0\.005 s; choose shorter ones'):
         mechanism.advance(5.0)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_goes_out_of_bounds_is_not_put_back_at_home_in_silence(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # where MuJoCo writes a log of it
+    mechanism = gimbals()
+    mechanism.data.qvel[0] = 1e12
+    mechanism.refresh()
+    with pytest.raises(UnstableError):
+        mechanism.advance(0.01)

@@ -13,7 +13,7 @@ from wrist_control.physics.mechanism import Mechanism
 from wrist_control.physics.models import build
 from wrist_control.rotations import IDENTITY, rates_between
 from wrist_control.studies import judgement
-from wrist_control.studies.judgement import BOUND, LOADED, aims, expected_efforts, judge
+from wrist_control.studies.judgement import BOUND, FIRM, LOADED, aims, expected_efforts, judge
 
 POSES = 3
 # How little a wrong number may be wrong to be seen.
@@ -106,6 +106,14 @@ def test_poses_are_far_apart_and_inside_the_workspace(name):
         turns.append(np.linalg.norm(rates_between(IDENTITY, hand, 1.0)))
     assert max(turns) > 0.4
     assert np.all(np.ptp(chosen, axis=0) > 0.02)
+
+
+def test_no_pose_is_where_the_carpal_wrist_is_loose():
+    wrist = make_wrist('carpal')
+    mechanism = build(wrist)
+    for positions in islice(aims(wrist, np.random.default_rng(1)), 30):
+        mechanism.start_at(positions)
+        assert mechanism.firmness > FIRM
 
 
 def test_a_weight_beside_an_axis_is_held_by_its_lever():

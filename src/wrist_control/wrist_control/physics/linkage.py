@@ -49,6 +49,7 @@ class Linkage:
         self._spec.option.gravity = settings.gravity
         self._spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
         self._spec.option.tolerance = TOLERANCE
+        self._spec.option.jacobian = mujoco.mjtJacobian.mjJAC_DENSE  # as it is read
         # Links pass through each other; what goes out of bounds is said, not put back at home.
         off = mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_AUTORESET
         self._spec.option.disableflags = int(off)

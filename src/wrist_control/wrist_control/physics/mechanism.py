@@ -221,7 +221,7 @@ class Mechanism:
             self.refresh()
             opened, rows = self._loops()
             missing = np.concatenate([-opened, positions - self.positions])
-            move = np.linalg.lstsq(self._held(rows), missing)[0]
+            move = np.linalg.lstsq(self._held(rows), missing, rcond=None)[0]
             mujoco.mj_integratePos(self.model, self.data.qpos, move, 1.0)
             if np.max(np.abs(move)) < CLOSED:
                 self.refresh()
@@ -236,7 +236,7 @@ class Mechanism:
         _, rows = self._loops()
         count = len(self.joints)
         wanted = np.vstack([np.zeros((len(rows), count)), np.eye(count)])
-        moves = np.linalg.lstsq(self._held(rows), wanted)[0]
+        moves = np.linalg.lstsq(self._held(rows), wanted, rcond=None)[0]
         carried = np.array([self._inertia(move) for move in moves.T])
         stiffness = carried * self.settings.bandwidth**2
         damping = carried * 2.0 * self.settings.damping_ratio * self.settings.bandwidth
