@@ -37,8 +37,8 @@ def test_every_wrist_flies_the_stick_and_the_basic_test_and_the_hand_is_where_it
 ):
     flown = PhysicsFlown(graph, wrist, **LOADED)
     flown.resolve()
-    flown.fly('stick', 100)
-    flown.fly('basic_test', 250)
+    flown.fly('stick', 64)
+    flown.fly('basic_test', 220)
     states = {status.state for status in flown.heard['wrist_status']}
     assert WristStatus.FAULT not in states
     turned = [state.position for state in flown.heard['joint_states']]
@@ -80,7 +80,7 @@ def test_servos_that_are_told_rates_follow_as_well(graph):
     """Nothing corrects what a lost message leaves behind: the hand is where they add up to."""
     flown = PhysicsFlown(graph, 'three_gimbal', command='joint_velocity_command', **LOADED)
     flown.resolve()
-    flown.fly('stick', 100)
+    flown.fly('stick', 64)
     assert np.ptp([state.position for state in flown.heard['joint_states']], axis=0).max() > 0.2
     assert flown.errors()[:, 1].max() < 2.0 * TURN
 
