@@ -206,4 +206,14 @@ EQUIVALENT = (
         )
         for after in ('(0.1)', '(10.0)', '(-1.0)', '(2.0)', '(0.0)')
     ),
+    *(
+        Equivalent(
+            'wrists/omni_wrist.py',
+            'THETA_BOW, PSI_BOW, SLOT = 0.5, 0.6, 0.007',
+            number,
+            f'(-{number})',
+            'a bow looks the same from either end, and a slot from either side',
+        )
+        for number in ('0.5', '0.6', '0.007')
+    ),
 )

@@ -2,6 +2,7 @@
 
 import os
 import re
+import signal
 import subprocess
 
 import pytest
@@ -59,6 +60,13 @@ def refused(graph, executable, *arguments):
     assert running.returncode == 2, said
     assert 'Traceback' not in said
     return said
+
+
+def test_whoever_stops_reading_the_help_sees_no_traceback(graph):
+    running = start(graph, 'three_gimbal_resolver', '--help')
+    running.stdout.close()  # as `| head -0` does
+    assert running.wait(timeout=30.0) == -signal.SIGPIPE
+    assert running.stderr.read() == ''
 
 
 @pytest.mark.parametrize('executable', EXECUTABLES)

@@ -146,7 +146,9 @@ def test_the_others_are_run_by_the_first_steps(name):
 
 def test_the_list_of_the_examples_is_the_folder():
     listed = re.findall(r'^\|.*\]\((\S+)\) \|', (FOLDER / 'README.md').read_text(), re.MULTILINE)
-    assert sorted(listed) == [script.name for script in SCRIPTS]
+    packages = sorted(FOLDER.glob('*/pyproject.toml'))  # test_plugins.py installs them
+    modules = [f'{file.parent.name}/{file.parent.name}.py' for file in packages]
+    assert sorted(listed) == sorted([*modules, *(script.name for script in SCRIPTS)])
 
 
 @pytest.mark.parametrize('script', SCRIPTS, ids=lambda script: script.stem)

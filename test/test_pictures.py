@@ -124,11 +124,11 @@ def test_two_wrists_side_by_side_do_not_collide(graph):
 
 
 def test_frames_of_other_names_are_used(graph):
-    graph.start(Resolver, 'pitch_yaw', forearm_frame='arm/tool0', hand_frame='palm')
+    graph.start(Resolver, 'pitch_yaw', forearm_frame='arm/tool0', hand_frame='own/palm')
     heard = graph.listen(TFMessage, '/tf')
     graph.until(lambda: heard)
     assert {one.header.frame_id for one in heard[-1].transforms} == {'arm/tool0'}
-    assert {one.child_frame_id for one in heard[-1].transforms} == {'ring', 'palm'}
+    assert {one.child_frame_id for one in heard[-1].transforms} == {'own/ring', 'own/palm'}
 
 
 def test_the_joint_nearest_to_its_limit_is_coloured_and_the_tip_leaves_a_trail(graph):

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from wrist_control import WRISTS
+
 ROOT = Path(__file__).resolve().parents[1]
 GUIDE = (ROOT / 'docs' / 'your-own-wrist.md').read_text()
 NAME = 'pitch_roll_yaw'
@@ -61,10 +63,9 @@ def test_the_paths_of_the_guide_are_those_of_the_repository():
         assert (ROOT / path).is_dir(), path
     assert (ROOT / 'config').is_dir()
     wrists = ROOT / 'src' / 'wrist_control' / 'wrist_control' / 'wrists'
-    beside = {'__init__.py', 'wrist.py', 'joint.py', 'dimension.py', 'registry.py'}
-    files = {f.name: len(f.read_text()) for f in wrists.glob('*.py') if f.name not in beside}
+    files = {name: len((wrists / f'{name}.py').read_text()) for name in WRISTS}
     (shortest,) = re.findall(r'`(\w+\.py)` is the shortest file', GUIDE)
-    assert shortest == min(files, key=files.get)
+    assert shortest == f'{min(files, key=files.get)}.py'
 
 
 def test_the_new_wrist_gets_its_executable(copy):

@@ -18,6 +18,7 @@ NODES = [
     'operator',
     'physics_simulator',
     'stewart_forward_kinematics',
+    'wrist_resolver',
 ]
 
 # The folders of files that come with the package.

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Iterator
 from importlib import metadata
 from importlib.util import find_spec
 
-from wrist_control import WRISTS
 from wrist_control.operating.maneuvers import MANEUVERS
+from wrist_control.wrists import wrist_names
 
 PACKAGE = 'wrist_control'
 WIDTH = 79
@@ -70,7 +70,7 @@ def lines() -> Iterator[str]:
     yield f'{PACKAGE} {version()}: turns a robot hand by its own axes'
     yield ''
     told = {
-        'wrists': ', '.join(WRISTS),
+        'wrists': ', '.join(wrist_names()),
         'maneuvers': ', '.join(MANEUVERS),
         'figures': figures(),
         'physics': physics(),

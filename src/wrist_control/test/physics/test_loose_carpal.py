@@ -16,6 +16,7 @@ pytest.importorskip('mujoco', reason='the extra physics is not installed')
 from wrist_control import make_wrist
 from wrist_control.physics.models import build
 from wrist_control.rotations import Pose
+from wrist_control.wrists.carpal import LOOSE
 
 WRIST = make_wrist('carpal')
 # At the place itself no loop can be closed: where the plate is, is not determined. So near, rad.
@@ -90,9 +91,11 @@ def test_the_plate_is_loose_where_no_distance_between_the_nodes_changes(
     assert mechanism.firmness > 0.1
 
 
-def test_our_margin_does_not_see_it():
+def test_our_margin_does_not_see_it_and_our_clearance_does():
     positions = tilted(WRIST, lock(WRIST))
-    assert min(limit.remaining for limit in WRIST.clearances(positions)) > 0.2
+    assert WRIST.margin(positions) > 0.2
+    (used_up,) = (limit.name for limit in WRIST.clearances(positions) if limit.remaining <= 0.0)
+    assert used_up == LOOSE
 
 
 @pytest.mark.parametrize('degrees', [-60.0, -30.0, 0.0, 30.0, 60.0, 80.0, 92.0, 100.0])

@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from wrist_control import make_wrist
+from wrist_control.studies.canfield_closure import fold
 from wrist_control.studies.canfield_pointing import pitch_yaw
 from wrist_control.studies.dexterity_figures import (
     edges,
@@ -77,7 +78,7 @@ def test_outside_the_workspace_a_map_is_blank_and_inside_it_is_not():
     ]
     home = wrist.forward(wrist.home)
     for row, column, heading, angle in PLACES:
-        reach = wrist.reach(heading - 0.5 * math.pi)  # turned about the axis 90° before
+        reach = fold(wrist, heading - 0.5 * math.pi)  # turned about the axis 90° before
         if angle < reach - 0.1:
             axis = (angle * math.cos(heading), angle * math.sin(heading), 0.0)
             there = wrist.inverse(wrist.target_pose(home, axis, 1.0), wrist.home)
@@ -160,7 +161,7 @@ def test_figure_4_3_has_closure_and_singularity_on_the_closed_form(curves, uncov
     ratios, reach = curves(over_plunge)['closed form']
     for ratio, degrees in list(zip(ratios, reach, strict=True))[::10]:
         wrist = Carpal(0.075, 0.1, 0.1 * ratio)
-        assert degrees == pytest.approx(math.degrees(wrist.reach(-0.5 * math.pi)))
+        assert degrees == pytest.approx(math.degrees(fold(wrist, -0.5 * math.pi)))
     assert over_plunge.get_xlabel() == '$R_d$'
     assert over_plunge.get_ylabel() == 'β at the edge, °'
     assert around.get_xlabel() == 'α, °'

@@ -8,7 +8,7 @@ import pytest
 
 from wrist_control import UnreachableError
 from wrist_control.dexterity import principal
-from wrist_control.studies.canfield_closure import closure_edge, sample, singular_edge
+from wrist_control.studies.canfield_closure import closure_edge, fold, sample, singular_edge
 from wrist_control.studies.canfield_pointing import (
     READINGS,
     carpal,
@@ -37,8 +37,8 @@ def measured(pointer, reading, place=SOLID):
 @pytest.mark.parametrize('azimuth', [0.0, 1.0, -0.5 * math.pi])
 def test_closure_and_singularity_end_at_the_same_tilt(ratio, azimuth):
     wrist = Carpal(0.075, 0.1, 0.1 * ratio)
-    assert closure_edge(wrist, azimuth) == pytest.approx(wrist.reach(azimuth), abs=1e-7)
-    assert singular_edge(wrist, azimuth) == pytest.approx(wrist.reach(azimuth), abs=1e-7)
+    assert closure_edge(wrist, azimuth) == pytest.approx(fold(wrist, azimuth), abs=1e-7)
+    assert singular_edge(wrist, azimuth) == pytest.approx(fold(wrist, azimuth), abs=1e-7)
 
 
 def test_beyond_closure_there_is_no_sample():

@@ -14,6 +14,7 @@ from wrist_control.studies.canfield_closure import (
     TABLE_4_2_AZIMUTH,
     TABLE_4_2_PRINTED,
     TABLE_4_2_TILTS,
+    PrintedCarpal,
     sample,
 )
 from wrist_control.studies.canfield_pointing import transform
@@ -156,7 +157,7 @@ def test_4_23_is_the_rule_of_sarrus_once_its_subscripts_are(angles):
 
 
 def carpal_tilt(alpha, beta):
-    wrist = Carpal(B, L, 0.05)
+    wrist = PrintedCarpal(B, L, 0.05)
     axis = (-math.sin(alpha), math.cos(alpha), 0.0)
     return wrist, np.array(sweep(wrist, axis, np.linspace(0.0, beta, 20).tolist())[-1])
 

@@ -11,7 +11,7 @@ from wrist_control.rotations import about_x, product
 from wrist_control.testing.broken import LawBrokenError
 from wrist_control.testing.seen import SEEN
 from wrist_control.wrists import Wrist, wrist_class
-from wrist_control.wrists.body import Ball
+from wrist_control.wrists.body import Arc, Ball, Plate, Rod
 
 
 def changed(body, **changes):
@@ -92,6 +92,24 @@ def floating_pin(drawn, positions):
     return (changed(forearm, shapes=(Ball((0.0, 0.0, -9.0), 0.1),)), *rest)
 
 
+def far_too_long(drawn, positions):
+    forearm, second, *rest = drawn
+    rod = Rod((0.0, 0.0, 0.0), (0.0, 0.0, 2.0))
+    return (forearm, changed(second, shapes=(*second.shapes, rod)), *rest)
+
+
+def far_too_thick(drawn, positions):
+    forearm, second, *rest = drawn
+    plate = Plate(((0.0, 0.0, 0.0), (0.01, 0.0, 0.0), (0.0, 0.01, 0.0)), 2.0)
+    return (forearm, changed(second, shapes=(*second.shapes, plate)), *rest)
+
+
+def far_too_wide(drawn, positions):
+    forearm, second, *rest = drawn
+    arc = Arc((0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 0.0, 1.0), 3.0)
+    return (forearm, changed(second, shapes=(*second.shapes, arc)), *rest)
+
+
 def joints_that_turn_backwards(drawn, positions):
     return tuple(
         changed(
@@ -119,6 +137,9 @@ FAULTS = (
     pin_askew,
     pin_without_another,
     floating_pin,
+    far_too_long,
+    far_too_thick,
+    far_too_wide,
     joints_that_turn_backwards,
 )
 # A wrist that says nothing of itself is a forearm and a hand: there is little to get wrong.

@@ -54,6 +54,28 @@ def test_a_frame_goes_around_its_points_in_any_order():
     assert {ball.centre for ball in shapes if isinstance(ball, body.Ball)} == set(corners)
 
 
+CORNERS = np.array([[0.2, 0.0, 0.0], [-0.1, 0.17, 0.0], [-0.1, -0.17, 0.0]])
+THREE_CORNERS = CORNERS[[0, 1, 1, 2, 2, 0]]
+OTHERS = {
+    'double_hooke': {'shaft_length': 0.02},
+    'omni_wrist': {'shaft_length': 1.0},
+    'carpal': {'base_radius': 0.2, 'leg_length': 0.15, 'plunge': 0.03},
+    'stewart': {'platform_anchors': THREE_CORNERS.ravel().tolist()},
+}
+
+
+@pytest.mark.parametrize('name', OTHERS)
+def test_wrists_of_other_dimensions_are_drawn_as_well(name):
+    """A platform whose anchors coincide in pairs has no bars between those."""
+    wrist = make_wrist(name, **OTHERS[name])
+    for law in SEEN:
+        law(wrist, np.random.default_rng(1))
+    for seen in wrist.bodies(wrist.home):
+        for shape in seen.shapes:
+            if isinstance(shape, body.Rod):
+                assert math.dist(shape.begin, shape.end) > 0.0
+
+
 def test_a_hand_points_along_its_probe_and_its_thumb_shows_its_roll():
     pose = Pose(about_z(0.3), (0.1, 0.0, 0.0))
     for probe, thumb in ((body.ALONG_X, 2), (body.ALONG_Z, 0)):

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from wrist_control import InvalidValueError, UnreachableError, make_wrist
 from wrist_control.rotations import Pose, about_z, product, rates_between, turned
+from wrist_control.studies.canfield_closure import fold
 from wrist_control.wrists.carpal import Carpal
 
 AZIMUTHS = np.radians([0.0, 120.0, 240.0])
@@ -210,7 +211,7 @@ def test_determinant_is_the_product_of_the_lifts_over_the_triangle(wrist, positi
 @given(wrists, st.floats(0.0, 2.0 * math.pi), st.floats(0.0, 1.0))
 def test_inside_the_workspace_nothing_but_closure_is_singular(wrist, azimuth, share):
     """Legs outward, plunge held: the mid-nodes stay on their own side and span a plane."""
-    tilt = 0.99 * share * wrist.reach(azimuth)
+    tilt = 0.99 * share * fold(wrist, azimuth)
     aim = (-math.sin(azimuth) * tilt, math.cos(azimuth) * tilt, 0.0)
     positions = wrist.home
     for part in np.linspace(0.0, 1.0, 20):
@@ -222,7 +223,7 @@ def test_inside_the_workspace_nothing_but_closure_is_singular(wrist, azimuth, sh
 
 @given(wrists, st.floats(0.0, 2.0 * math.pi))
 def test_reach_is_where_a_leg_stops_closing(wrist, azimuth):
-    reach = wrist.reach(azimuth)
+    reach = fold(wrist, azimuth)
 
     def closes(tilt):
         aim = (-math.sin(azimuth) * tilt, math.cos(azimuth) * tilt, 0.0)

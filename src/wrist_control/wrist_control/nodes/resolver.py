@@ -25,6 +25,7 @@ from wrist_control.nodes.resolver_settings import (
     mechanism,
     settings,
     specs,
+    wrist_spec,
 )
 from wrist_control.resolving.announcer import Announcer
 from wrist_control.resolving.period import Mode, PeriodResult
@@ -45,6 +46,8 @@ LEVELS = {
     WristState.FAULT: ERROR,
     WristState.WAITING: WARN,
 }
+# What the resolver whose wrist is a parameter is called after.
+ANY = 'wrist'
 TYPES = {
     'cmd_vel': 'geometry_msgs/msg/TwistStamped',
     'cmd_vel_unstamped': 'geometry_msgs/msg/Twist',
@@ -57,19 +60,22 @@ TYPES = {
 class Resolver(GuardedNode):
     """Turns operator rates into joint commands for one wrist."""
 
-    def __init__(self, wrist_name: str, **node_options: Any) -> None:
+    def __init__(self, wrist_name: str = '', **node_options: Any) -> None:
         """Declare the parameters and start stepping.
 
         Args:
-            wrist_name: One of the registered wrists.
+            wrist_name: One of the wrists; without it the parameter `wrist` names one.
             node_options: Passed on to rclpy.
 
         Raises:
             WristError: A parameter cannot be used; the sentence says why.
         """
         self._hidden: list[Subscription] = []
-        super().__init__(f'{wrist_name}_resolver', **node_options)
-        self._values = completed(self.declare(specs(wrist_name)))
+        super().__init__(f'{wrist_name or ANY}_resolver', **node_options)
+        chosen = () if wrist_name else (wrist_spec(),)
+        for spec in chosen:
+            wrist_name = str(self.given(spec))
+        self._values = completed(self.declare([*chosen, *specs(wrist_name)]))
         self._started = dict(self._values)
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
@@ -208,5 +214,5 @@ class Resolver(GuardedNode):
 
 
 def main(wrist_name: str) -> None:
-    """Run the resolver of one wrist."""
-    sys.exit(run(partial(Resolver, wrist_name)))
+    """Run the resolver of one wrist, or of the one that its parameter `wrist` names."""
+    sys.exit(run(partial(Resolver, '' if wrist_name == ANY else wrist_name)))

@@ -37,7 +37,8 @@ class Pictures:
         self._node = node
         self._wrist = wrist
         self._hand = values['hand_frame']
-        self._prefix = f'{node.get_namespace()}/'.lstrip('/')
+        path, slash, _ = self._hand.rpartition('/')
+        self._prefix = path + slash
         self._every = max(1, round(values['rate'] / MARKERS_PER_SECOND))
         self._count = 0
         self._broken = False

@@ -9,7 +9,7 @@ from typing import Any
 from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.period import SupervisorSettings
 from wrist_control.ros.parameters import FRAME, Spec
-from wrist_control.wrists import Wrist, wrist_class
+from wrist_control.wrists import Wrist, wrist_class, wrist_names
 from wrist_control.wrists.joint import broadcast_to_joints
 
 # What a joint may do when nobody says: 32 deg/s, [Barker1986]; 50 mm/s for a leg.
@@ -20,6 +20,12 @@ SPEEDING_UP, SLOWING_DOWN = 0.25, 0.1
 LONGEST_STOP, FAST = 10.0, {'revolute': 10.0, 'prismatic': 1.0}
 # How far a joint may be behind its command, rad and m.
 BEHIND = {'revolute': 0.1, 'prismatic': 0.005}
+
+
+def wrist_spec() -> Spec:
+    """Return the parameter that says which wrist, of those that there are here."""
+    names = wrist_names()
+    return Spec('wrist', names[0], 'Which wrist', choices=names)
 
 
 def mechanism_specs(wrist_name: str) -> list[Spec]:

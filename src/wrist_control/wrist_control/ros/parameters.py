@@ -121,6 +121,15 @@ class ParameterNode(Node):
             self.get_logger().warning(self._unknown(name))
         return values
 
+    def given(self, spec: Spec) -> Value:
+        """Return the value that a parameter is going to have, before it is declared.
+
+        Raises:
+            InvalidValueError: It is not valid.
+        """
+        values = self.get_parameters_by_prefix('')
+        return checked(spec, values[spec.name].value if spec.name in values else spec.default)
+
     def watch(
         self,
         check: Callable[[dict[str, Any]], object],

@@ -34,7 +34,7 @@ LONGEST_WAIT = 3600.0
 # An executor that raises so often, each time within so many s, will not work again.
 MOST_BREAKS, SOON = 10, 1.0
 # How long a node that cannot start looks for somebody on /rosout, and lets the words go out, s.
-LISTENERS_WITHIN, LAST_WORDS = 0.5, 0.3
+LISTENERS_WITHIN, LAST_WORDS = 1.0, 0.3
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import signal
 import sys
 import textwrap
 from collections.abc import Callable, Iterable, Iterator
@@ -29,6 +30,7 @@ def is_wanted(arguments: Iterable[str]) -> bool:
 def tell(make_node: Callable[[], ParameterNode]) -> int:
     """Print what a node hears, says and can be told, or why not; return the exit code."""
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'OFF'
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # whoever reads it may stop in the middle
     rclpy.init(args=[])
     try:
         node = make_node()

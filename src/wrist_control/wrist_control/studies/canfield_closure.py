@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from wrist_control.dexterity import sweep
 from wrist_control.errors import UnreachableError
-from wrist_control.wrists.carpal import AZIMUTHS, Carpal
-from wrist_control.wrists.wrist import Positions
+from wrist_control.wrists.carpal import AZIMUTHS, LOOSE, Carpal
+from wrist_control.wrists.wrist import Clearance, Positions
+
+
+@dataclass(frozen=True)
+class PrintedCarpal(Carpal):
+    """The wrist as the dissertation sees it: not ended where the hand is loose. docs/errata.md."""
+
+    def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
+        """Return what is left to the edge of the workspace alone."""
+        return tuple(one for one in super().clearances(positions) if one.name != LOOSE)
+
 
 # What gives every digit of Table 4.2: R_b = 0.75 and R_d = 0.7 with a leg of ten (the determinant
 # grows with the leg, the discriminant with its square), tilted by these β towards α = -90°.
-TABLE_4_2 = Carpal(base_radius=7.5, leg_length=10.0, plunge=7.0)
+TABLE_4_2 = PrintedCarpal(base_radius=7.5, leg_length=10.0, plunge=7.0)
 TABLE_4_2_AZIMUTH = -0.5 * math.pi
 TABLE_4_2_TILTS = tuple(math.radians(beta) for beta in (75.75, 75.9, 75.95, 75.972))
 # θ1, θ2, θ3 in degrees, discriminant and det J as printed.
@@ -47,6 +59,30 @@ class Sample(NamedTuple):
         angles = (f'{math.degrees(theta):.2f}' for theta in self.angles)
         places = 3 if self.discriminant > 1.0 else 4
         return (*angles, f'{self.discriminant:.{places}f}', f'{self.determinant:.4f}')
+
+
+def fold(wrist: Carpal, azimuth: float) -> float:
+    """Return the tilt β at which a leg folds at the home plunge, rad; π where none does.
+
+    Leg i folds where tan(β/2) cos(α - α_i) = 1/s, s = (-R_d R_b ± √(R_d² + R_b² - 1)) /
+    (1 - R_d²): never when R_d² + R_b² < 1, in ratios to the leg length.
+
+    Args:
+        wrist: With its legs outward at home.
+        azimuth: α, the direction of the tilt in the base plate, rad.
+    """
+    rb, rd = wrist.base_radius / wrist.leg_length, wrist.plunge / wrist.leg_length
+    square = rd * rd + rb * rb - 1.0
+    if square < 0.0:
+        return math.pi
+    root = math.sqrt(square)
+    x, y = math.cos(azimuth), math.sin(azimuth)
+    cotangent = max(
+        s * (x * cos + y * sin) / (1.0 - rd * rd)
+        for s in (-rd * rb - root, -rd * rb + root)
+        for cos, sin in AZIMUTHS
+    )
+    return 2.0 * math.atan2(1.0, max(0.0, cotangent))
 
 
 def sample(wrist: Carpal, azimuth: float, tilt: float) -> Sample:

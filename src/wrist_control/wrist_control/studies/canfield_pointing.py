@@ -14,7 +14,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from wrist_control.dexterity import Uniformity, dexterous_measure, jacobians, principal, sweep
-from wrist_control.wrists.carpal import Carpal
+from wrist_control.studies.canfield_closure import PrintedCarpal
 from wrist_control.wrists.five_bar import FiveBar
 from wrist_control.wrists.pitch_yaw import PitchYaw
 from wrist_control.wrists.wrist import Positions, Wrist
@@ -57,7 +57,7 @@ class Pointer(NamedTuple):
 
 def carpal(base_ratio: float, plunge_ratio: float) -> Pointer:
     """Return the Carpal wrist of ratios R_b and R_d to a leg of 0.1 m."""
-    wrist = Carpal(0.1 * base_ratio, 0.1, 0.1 * plunge_ratio)
+    wrist = PrintedCarpal(0.1 * base_ratio, 0.1, 0.1 * plunge_ratio)
 
     def aim(alpha: float, beta: Sequence[float]) -> list[Positions]:
         return sweep(wrist, (-math.sin(alpha), math.cos(alpha), 0.0), beta)

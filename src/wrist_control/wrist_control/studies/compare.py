@@ -25,9 +25,9 @@ from wrist_control.studies.comparison import (
     PATIENCE,
     Performance,
     compare,
+    wrists_here,
 )
 from wrist_control.studies.pictures import save
-from wrist_control.wrists import WRISTS
 
 # A number of a maneuver that was not finished, in the picture.
 STOPPED = '†'
@@ -217,11 +217,18 @@ def _label(o: Performance, panel: Panel) -> str:
 
 def main(
     folder: Path,
-    wrists: Sequence[str] = tuple(WRISTS),
+    wrists: Sequence[str] = (),
     maneuvers: Sequence[Maneuver] = MANEUVERS,
 ) -> None:
-    """Compare wrists, print the table, and write it and the picture to a folder."""
+    """Compare wrists, all that there are unless some are named; print and write what comes out.
+
+    Args:
+        folder: Where the picture and the table go.
+        wrists: Names of wrists.
+        maneuvers: What they are asked to do.
+    """
     console = Console()
+    wrists = wrists or wrists_here(console.print)
     performances = compare(
         wrists, maneuvers, lambda pairs: track(pairs, 'flying', console=console)
     )

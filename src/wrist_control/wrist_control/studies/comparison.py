@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wrist_control.errors import WristError
 from wrist_control.flight import Flight, fly
 from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, Segment, make_maneuver
 from wrist_control.resolving import SINGULAR_MARGIN
 from wrist_control.rotations import Vector, quaternion_of, rates_between, turned
-from wrist_control.wrists import WRISTS, Wrist, make_wrist
+from wrist_control.wrists import WRISTS, Wrist, make_wrist, wrist_names
 
 MANEUVERS = tuple(
     make_maneuver(name)
@@ -75,6 +76,23 @@ def compare(
     """
     pairs = [(wrist, maneuver) for maneuver in maneuvers for wrist in wrists]
     return [_performance(make_wrist(name), name, maneuver) for name, maneuver in tracked(pairs)]
+
+
+def wrists_here(tell: Callable[[str], object]) -> list[str]:
+    """Return the names of all wrists that can be made here, those of other packages too.
+
+    Args:
+        tell: Called with a sentence for each wrist of another package that cannot be made.
+    """
+    found = []
+    for name in wrist_names():
+        try:
+            make_wrist(name)
+        except WristError as error:
+            tell(str(error))
+        else:
+            found.append(name)
+    return found
 
 
 def approach_axis(wrist: Wrist) -> int:

@@ -14,7 +14,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.projections.polar import PolarAxes
 
 from wrist_control.dexterity import determinant, disc, principal, singular_ratio, sweep
-from wrist_control.studies.canfield_closure import closure_edge, singular_edge
+from wrist_control.studies.canfield_closure import PrintedCarpal, closure_edge, fold, singular_edge
 from wrist_control.studies.canfield_pointing import (
     Pointer,
     Reading,
@@ -45,7 +45,7 @@ BASE_RATIO = 0.75
 
 def carpal(plunge_ratio: float) -> Carpal:
     """Return the Carpal wrist of the figures with a unit leg, R_d as given."""
-    return Carpal(BASE_RATIO, 1.0, plunge_ratio)
+    return PrintedCarpal(BASE_RATIO, 1.0, plunge_ratio)
 
 
 def edges() -> Figure:
@@ -77,7 +77,7 @@ def _edge_lines(
     places: list[tuple[Carpal, float]],
     marked: list[tuple[Carpal, float]],
 ) -> None:
-    reach = [math.degrees(wrist.reach(alpha)) for wrist, alpha in places]
+    reach = [math.degrees(fold(wrist, alpha)) for wrist, alpha in places]
     axes.plot(x, reach, color='0.7', linewidth=4, label='closed form')
     at = [x[places.index(place)] for place in marked]
     closed = [math.degrees(closure_edge(*place)) for place in marked]

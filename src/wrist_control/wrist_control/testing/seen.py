@@ -90,6 +90,29 @@ def pins_lie_on_what_is_drawn(wrist: Wrist, random: Random) -> None:
             require(gap <= 1e-9, f'pin {pin.name} floats {gap:.2g} m beside {body.name}')
 
 
+def nothing_is_drawn_out_of_proportion(wrist: Wrist, random: Random) -> None:
+    """Nothing reaches more than twice as far from the forearm's origin as pins and probe do."""
+    bodies = wrist.bodies(wrist.home)
+    pins = [body.pose.point(pin.point) for body in bodies for pin in body.pins]
+    size = max(math.hypot(*point) for point in (*pins, bodies[-1].pose.point(wrist.probe)))
+    for body in bodies:
+        for shape in body.shapes:
+            points, thickness = _ends(shape)
+            reach = thickness + max(math.hypot(*body.pose.point(point)) for point in points)
+            require(reach <= 2.0 * size, f'{shape} of {body.name} reaches {reach:.2g} m far')
+
+
+def _ends(shape: Shape) -> tuple[list[Vector], float]:
+    """Return points that tell how far a shape reaches, body axes, and how thick it is there, m."""
+    if isinstance(shape, Ball):
+        return [shape.centre], shape.radius
+    if isinstance(shape, Plate):
+        return list(shape.corners), shape.thickness
+    if isinstance(shape, Rod):
+        return [shape.begin, shape.end], shape.radius
+    return [shape.centre], math.hypot(*shape.begin) + shape.radius
+
+
 def _pairs(wrist: Wrist, positions: Positions) -> dict[str, list[tuple[Body, Pin]]]:
     found: dict[str, list[tuple[Body, Pin]]] = {}
     for body in wrist.bodies(positions):
@@ -154,4 +177,5 @@ SEEN = (
     pins_that_belong_together_coincide,
     pins_named_like_joints_move_by_their_positions,
     pins_lie_on_what_is_drawn,
+    nothing_is_drawn_out_of_proportion,
 )

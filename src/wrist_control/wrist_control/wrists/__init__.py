@@ -8,29 +8,48 @@ from typing import Any
 
 from wrist_control.errors import InvalidValueError
 from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.plugins import plugged_in, plugged_in_class
 from wrist_control.wrists.registry import WRISTS
 from wrist_control.wrists.wrist import Clearance, Configuration, Wrist
 
-__all__ = ['WRISTS', 'Clearance', 'Configuration', 'Joint', 'Wrist', 'make_wrist', 'wrist_class']
+__all__ = [
+    'WRISTS',
+    'Clearance',
+    'Configuration',
+    'Joint',
+    'Wrist',
+    'make_wrist',
+    'wrist_class',
+    'wrist_names',
+]
 
 
 def wrist_class(name: str) -> type[Wrist]:
-    """Return the class of a wrist by its registered name.
+    """Return the class of a wrist by its name: one of `wrist_names`.
 
     Raises:
-        InvalidValueError: No wrist of that name.
+        InvalidValueError: No wrist of that name, or one of another package that is none.
     """
-    if name not in WRISTS:
-        raise InvalidValueError(f'There is no wrist {name!r}; the wrists are {", ".join(WRISTS)}.')
-    kind: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), WRISTS[name])
-    return kind
+    if name in WRISTS:
+        kind: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), WRISTS[name])
+        return kind
+    if name not in wrist_names():
+        raise InvalidValueError(
+            f'There is no wrist {name!r}; the wrists are {", ".join(wrist_names())}.'
+        )
+    return plugged_in_class(plugged_in()[name])
+
+
+def wrist_names() -> tuple[str, ...]:
+    """Return the names of all wrists: this package's, and those that other packages plug in."""
+    return (*WRISTS, *plugged_in())
 
 
 def make_wrist(name: str, **dimensions: Any) -> Wrist:
-    """Return a wrist by its registered name.
+    """Return a wrist by its name.
 
     Args:
-        name: One of `WRISTS`.
+        name: One of `wrist_names`.
         dimensions: The mechanism's own parameters, SI units.
 
     Raises:

@@ -177,12 +177,18 @@ def frame(points: Sequence[Vector], radius: float) -> tuple[Shape, ...]:
     """Return a frame of rods around points that lie about the z axis, each with a ball on it.
 
     Args:
-        points: Where the balls are, m, in any order.
+        points: Where the balls are, m, in any order; some may coincide.
         radius: Radius of the rods, m.
     """
     around = sorted(points, key=lambda point: math.atan2(point[1], point[0]))
-    rods = [Rod(a, b, radius) for a, b in zip(around, [*around[1:], around[0]], strict=True)]
+    pairs = zip(around, [*around[1:], around[0]], strict=True)
+    rods = rods_between(list(pairs), radius)
     return (*rods, *(Ball(point, 1.6 * radius) for point in around))
+
+
+def rods_between(pairs: Sequence[tuple[Vector, Vector]], radius: float) -> list[Rod]:
+    """Return a rod between the points of each pair, m, but for those too close for one."""
+    return [Rod(a, b, radius) for a, b in pairs if math.dist(a, b) > radius]
 
 
 def turn_of_z(direction: Vector) -> Quaternion:

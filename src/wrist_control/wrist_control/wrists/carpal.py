@@ -44,6 +44,8 @@ EDGES = (
     'tilt of a half turn',
     'mid-nodes in one line',
 )
+# And what ends it before: no drive holds the hand there.
+LOOSE = 'the hand near loose'
 
 
 class _Midplane(NamedTuple):
@@ -67,7 +69,7 @@ class Carpal(Wrist):
     """Tilts the hand about two axes and carries it on a sphere of radius `plunge`.
 
     p and q are followed, r is what a tilt without torsion forces, and the plunge that the joints
-    start with is held. It ends where a leg folds.
+    start with is held. It ends where a leg folds, or where the legs hold the hand no more.
 
     Choose it to point with a passage through its middle, for cables or a drive shaft that rolls.
     """
@@ -209,11 +211,25 @@ class Carpal(Wrist):
         return (float(x), float(y), 0.0)
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
-        """Return what is left to the workspace edge, in sines of angles."""
-        return tuple(
-            soft_edge(name, distance)
-            for name, distance in zip(EDGES, self._distances(positions), strict=True)
-        )
+        """Return what is left to the workspace edge, in sines of angles, and to a loose hand."""
+        edges = map(soft_edge, EDGES, self._distances(positions))
+        return (*edges, soft_edge(LOOSE, self.firmness(positions)))
+
+    def firmness(self, positions: Sequence[float]) -> float:
+        """Return how firmly the legs hold the hand while no drive moves, 0 where it is loose.
+
+        There the upper links can turn and leave the mid-nodes where they are: |s12 s23 s31 +
+        s21 s32 s13|, s_ij the cosine between m_i − m_j and ∂m_i/∂θ_i. docs/equations.md.
+        """
+        nodes = self._midplane(positions).nodes
+        shares = {
+            (i, j): _cosine(_from(nodes[j], nodes[i]), theta, *AZIMUTHS[i])
+            for i, theta in enumerate(positions)
+            for j in range(3)
+            if i != j
+        }
+        around = shares[0, 1] * shares[1, 2] * shares[2, 0]
+        return abs(around + shares[1, 0] * shares[2, 1] * shares[0, 2])
 
     def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
         """Return the base, three legs of two links, and the hand, which is the base mirrored."""
@@ -239,28 +255,6 @@ class Carpal(Wrist):
         stem = Rod((0.0, 0.0, -self.base_radius), body.ORIGIN, 2.0 * body.BAR)
         forearm = Body('forearm', body.AT_REST, (plate, stem), tuple(base))
         return (forearm, *legs, body.hand(pose, tuple(distal), plate, probe=self.probe))
-
-    def reach(self, azimuth: float) -> float:
-        """Return the tilt β at which a leg folds at the home plunge, rad; π where none does.
-
-        Leg i folds where tan(β/2) cos(α - α_i) = 1/s, s = (-R_d R_b ± √(R_d² + R_b² - 1)) /
-        (1 - R_d²): never when R_d² + R_b² < 1, in ratios to the leg length.
-
-        Args:
-            azimuth: α, the direction of the tilt in the base plate, rad.
-        """
-        rb, rd = self.base_radius / self.leg_length, self.plunge / self.leg_length
-        square = rd * rd + rb * rb - 1.0
-        if square < 0.0:
-            return math.pi
-        root = math.sqrt(square)
-        x, y = math.cos(azimuth), math.sin(azimuth)
-        cotangent = max(
-            s * (x * cos + y * sin) / (1.0 - rd * rd)
-            for s in (-rd * rb - root, -rd * rb + root)
-            for cos, sin in AZIMUTHS
-        )
-        return 2.0 * math.atan2(1.0, max(0.0, cotangent))
 
     def _distances(self, positions: Sequence[float]) -> tuple[float, ...]:
         _, normal, area, lifts = self._midplane(positions)
@@ -292,6 +286,13 @@ def _at_edge(edge: str) -> UnreachableError:
 def _leg(hinge: Vector, along: Vector, across: Vector) -> Pose:
     """Return where a link is: x along it, y along its hinge."""
     return Pose(quaternion_of((along, across, cross(along, across))), hinge)
+
+
+def _cosine(edge: Vector, theta: float, cos: float, sin: float) -> float:
+    """Return the cosine between a vector and the way that a mid-node goes as its leg turns."""
+    inward, (x, y, z) = -math.sin(theta), edge
+    along = inward * (cos * x + sin * y) + math.cos(theta) * z
+    return along / math.sqrt(x * x + y * y + z * z)
 
 
 def _from(a: Vector, b: Vector) -> Vector:

@@ -235,7 +235,7 @@ class Stewart(Wrist):
                 )
         under = body.frame([pin.point for pin in base], bar)
         over = body.frame([pin.point for pin in top], bar)
-        spokes = [Rod(body.ORIGIN, pin.point, 0.5 * bar) for pin in top]
+        spokes = body.rods_between([(body.ORIGIN, pin.point) for pin in top], 0.5 * bar)
         return (
             Body('forearm', body.AT_REST, under, tuple(base)),
             *links,
