@@ -12,20 +12,13 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, Header
 
 from wrist_control.errors import RefusedError, UnstableError
-from wrist_control.nodes.physics_settings import (
-    POSITIONS,
-    SPECS,
-    WRIST,
-    check_stuck,
-    driven,
-)
+from wrist_control.nodes.physics_settings import POSITIONS, SPECS, WRIST, check_stuck, driven
 from wrist_control.nodes.resolver_settings import mechanism, mechanism_specs
 from wrist_control.resolving.joint_order import finite_in_joint_order
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from wrist_control.ros.guarded import GuardedNode
-from wrist_control.ros.parameters import checked
 from wrist_control.ros.qos import EVERY, NEWEST, OUTPUT
 from wrist_control.ros.running import run
 
@@ -51,8 +44,7 @@ class PhysicsSimulator(GuardedNode):
                 says why.
         """
         super().__init__('physics_simulator', **node_options)
-        given = self.get_parameter('wrist').value if self.has_parameter('wrist') else WRIST.default
-        name = checked(WRIST, given)
+        name = str(self.given(WRIST))
         self._values = values = self.declare([*SPECS, *mechanism_specs(name)])
         self._wrist = mechanism(name, values)
         self._mechanism = driven(self._wrist, values)
