@@ -16,6 +16,7 @@ from std_msgs.msg import Float64MultiArray
 
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
+from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_interfaces.msg import WristStatus
@@ -148,6 +149,7 @@ def test_use_sim_time_does_not_change_while_a_node_runs(graph, simulated_time):
         (Resolver, ['three_gimbal']),
         (Operator, []),
         (JointSimulator, []),
+        (PhysicsSimulator, []),
         (StewartForwardKinematics, []),
     ],
 )

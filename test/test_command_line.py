@@ -14,6 +14,7 @@ from wrist_control import WRISTS
 from wrist_control.graph.processes import config_file, executable_file
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
+from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_control.ros.command_line import what_is_wrong
@@ -22,6 +23,7 @@ from wrist_interfaces.msg import WristStatus
 OTHERS = {
     'joint_simulator': JointSimulator,
     'operator': Operator,
+    'physics_simulator': PhysicsSimulator,
     'stewart_forward_kinematics': StewartForwardKinematics,
 }
 EXECUTABLES = [*OTHERS, *(f'{wrist}_resolver' for wrist in WRISTS)]

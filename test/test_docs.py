@@ -9,7 +9,13 @@ from importlib.util import find_spec
 
 import pytest
 
-from wrist_control.nodes import joint_simulator, operator, stewart_forward_kinematics
+from machine import APT_OF_EXTRA
+from wrist_control.nodes import (
+    joint_simulator,
+    operator,
+    physics_settings,
+    stewart_forward_kinematics,
+)
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.resolver_settings import specs
 from wrist_control.wrists import WRISTS
@@ -41,6 +47,7 @@ NODES = [one for one in COMMANDS if '--ros-args' in one.values[0]]
 PROGRAMS = [one for one in COMMANDS if one.values[0].startswith('./env') and one not in NODES]
 SNIPPETS = [block for document in DOCUMENTS for _, block in blocks(document, 'python')]
 TARGETS = re.findall(r'^(\w+):', (ROOT / 'Makefile').read_text(), re.MULTILINE)
+TARGETS += [f'setup-{extra}' for extra in APT_OF_EXTRA]
 HEADINGS = re.compile(r'^#+ (.*)$', re.MULTILINE)
 
 
@@ -142,7 +149,9 @@ def test_the_document_of_the_wrists_is_what_the_code_says(tmp_path):
     assert written.read_text() == (ROOT / 'docs' / 'wrists.md').read_text(), 'run `make docs`'
 
 
-@pytest.mark.parametrize('node', [operator, joint_simulator, stewart_forward_kinematics])
+@pytest.mark.parametrize(
+    'node', [operator, joint_simulator, physics_settings, stewart_forward_kinematics]
+)
 def test_every_other_parameter_is_in_the_documents(node):
     missing = [spec.name for spec in node.SPECS if f'`{spec.name}`' not in PARAMETERS]
     assert missing == []

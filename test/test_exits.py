@@ -153,7 +153,13 @@ def test_an_error_of_the_middleware_itself_ramps_a_moving_hand_to_a_zero(graph):
 @pytest.mark.parametrize('clock', ['false', 'true'])
 @pytest.mark.parametrize(
     'executable',
-    ['operator', 'stewart_resolver', 'joint_simulator', 'stewart_forward_kinematics'],
+    [
+        'operator',
+        'stewart_resolver',
+        'joint_simulator',
+        'physics_simulator',
+        'stewart_forward_kinematics',
+    ],
 )
 def test_every_node_ends_well_whenever_it_is_stopped(process_environment, executable, clock):
     for _ in range(4):

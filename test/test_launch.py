@@ -158,6 +158,7 @@ def test_every_wrist_and_every_maneuver_is_a_choice_and_nothing_else(described):
     [
         ({}, ['joint_simulator']),
         ({'joints': 'real'}, []),
+        ({'joints': 'physics'}, ['physics_simulator']),
         ({'joints': 'real', 'operator': 'maneuver'}, ['operator']),
         ({'joints': 'real', 'operator': 'joystick'}, ['operator', 'joy_node']),
         ({'operator': 'none', 'rviz': 'true'}, ['joint_simulator', 'rviz2']),
@@ -165,6 +166,13 @@ def test_every_wrist_and_every_maneuver_is_a_choice_and_nothing_else(described):
 )
 def test_what_is_asked_for_is_started(described, given, more):
     assert names(started(described, **given)) == ['three_gimbal_resolver', *more]
+
+
+@pytest.mark.parametrize('wrist', WRISTS)
+def test_the_physics_is_that_of_the_wrist(described, wrist):
+    nodes = started(described, wrist=wrist, joints='physics')
+    (parameters,) = (one[3] for one in nodes if one[1] == 'physics_simulator')
+    assert parameters[1:] == [{'wrist': wrist}]
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from sensor_msgs.msg import JointState, Joy
 
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
+from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_interfaces.msg import WristStatus
@@ -19,6 +20,7 @@ NODES = (
     (Resolver, 'three_gimbal'),
     (Operator,),
     (JointSimulator,),
+    (PhysicsSimulator,),
     (StewartForwardKinematics,),
 )
 OUR_TOPICS = {
@@ -26,6 +28,7 @@ OUR_TOPICS = {
     '/joint_command',
     '/joint_velocity_command',
     '/joint_states',
+    '/true_hand_pose',
     '/hand_pose',
     '/wrist_status',
     '/markers',

@@ -28,7 +28,7 @@ HEAVY = {
     'judge': {'setup-physics'},
     'lint': {'setup-test'},
     'format': {'setup-test'},
-    'bench': {'setup-test'},
+    'bench': {'setup-test', 'setup-physics'},
     'mutants': {'setup-test'},
     'docs': {'setup-docs'},
 }

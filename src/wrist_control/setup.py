@@ -16,6 +16,7 @@ PACKAGE = MANIFEST.findtext('name')
 NODES = [
     'joint_simulator',
     'operator',
+    'physics_simulator',
     'stewart_forward_kinematics',
     'wrist_resolver',
 ]

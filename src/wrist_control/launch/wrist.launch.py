@@ -34,8 +34,9 @@ ARGUMENTS = [
     DeclareLaunchArgument(
         'joints',
         default_value='simulated',
-        choices=['simulated', 'real'],
-        description='real: the driver of the robot hears joint_command and says joint_states',
+        choices=['simulated', 'physics', 'real'],
+        description='physics: a mechanism with loads, where mujoco is installed; real: the driver '
+        'of the robot hears joint_command and says joint_states',
     ),
     DeclareLaunchArgument(
         'operator',
@@ -85,11 +86,13 @@ def generate_launch_description():
     drawn = ['-d', [SHARE, '/rviz/wrist.rviz'], '-f', FOREARM]
     maneuver = {'maneuver': LaunchConfiguration('maneuver')}
     joystick, flown = when('operator', 'joystick'), when('operator', 'maneuver')
+    physical = when('joints', 'physics')
     return LaunchDescription(
         [
             *ARGUMENTS,
             node([WRIST, '_resolver'], PARAMETERS),
             node('joint_simulator', PARAMETERS, condition=when('joints', 'simulated')),
+            node('physics_simulator', PARAMETERS, {'wrist': WRIST}, condition=physical),
             node('operator', PARAMETERS, maneuver, condition=flown),
             node('operator', PARAMETERS, {'maneuver': 'joystick'}, condition=joystick),
             node('joy_node', package='joy', condition=joystick),

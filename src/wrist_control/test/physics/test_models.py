@@ -29,7 +29,11 @@ KINEMATICS = (
     'resolve_assembly',
     'forward_kinematics',
 )
-SOURCES = sorted(Path(physics.__file__).parent.glob('*.py'))
+SOURCES = [
+    path
+    for path in sorted(Path(physics.__file__).parent.glob('*.py'))
+    if path.stem != 'driven'  # it is given a mechanism, and never sees a wrist
+]
 
 
 class Unknown(Wrist):

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from wrist_control.errors import RefusedError
-from wrist_control.resolving.joint_order import in_joint_order
+from wrist_control.resolving.joint_order import finite_in_joint_order, in_joint_order
 
 JOINTS = ['psi', 'theta', 'phi']
 
@@ -49,3 +49,16 @@ def test_more_than_a_thousand_joints_are_not_looked_at(names, values):
 def test_a_thousand_are():
     names = [f'joint_{number}' for number in range(1000)]
     assert in_joint_order(['joint_999'], names, range(1000)) == (999.0,)
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def test_what_a_joint_is_told_must_be_finite(value):
+    with pytest.raises(RefusedError, match='not finite') as refused:
+        finite_in_joint_order(['psi'], ['theta', 'psi'], [0.0, value])
+    assert refused.value.reason == 'not finite'
+    assert finite_in_joint_order(['psi'], ['theta', 'psi'], [value, 0.5]) == (0.5,)
+
+
+def test_nothing_is_told_to_no_joint():
+    with pytest.raises(RefusedError, match='not finite'):
+        finite_in_joint_order([], [], [])

@@ -10,7 +10,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
 from wrist_control.errors import InvalidValueError, RefusedError
-from wrist_control.resolving.joint_order import in_joint_order
+from wrist_control.resolving.joint_order import finite_in_joint_order
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.resolving.simulated_joint import follow
 from wrist_control.ros import convert
@@ -117,9 +117,7 @@ class JointSimulator(GuardedNode):
 
     def _wanted(self, names: list[str], positions: list[float]) -> list[float]:
         known = [joint.name for joint in self._joints] or names
-        wanted = list(in_joint_order(known, names, positions))
-        if not wanted or not all(math.isfinite(x) for x in wanted):
-            raise RefusedError('not finite', f'Refused a command that is not finite: {wanted}.')
+        wanted = list(finite_in_joint_order(known, names, positions))
         if not self._joints:
             self._begin(names, wanted)
         return wanted

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from wrist_control.errors import RefusedError
@@ -46,3 +47,17 @@ def in_joint_order(
                 f'{joint} is named {times} times; name each of {", ".join(joints)} once.',
             )
     return tuple(float(values[index_of[joint]]) for joint in joints)
+
+
+def finite_in_joint_order(
+    joints: Sequence[str], names: Sequence[str], values: Sequence[float]
+) -> tuple[float, ...]:
+    """Return what some joints are told, in their own order: `in_joint_order`, and finite.
+
+    Raises:
+        RefusedError: As there; or no joint at all, or a value that is not finite.
+    """
+    told = in_joint_order(joints, names, values)
+    if not told or not all(math.isfinite(value) for value in told):
+        raise RefusedError('not finite', f'Refused a command that is not finite: {list(told)}.')
+    return told

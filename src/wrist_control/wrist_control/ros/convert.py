@@ -46,14 +46,19 @@ def twist_message(values: Sequence[float]) -> Twist:
 
 
 def joint_message(
-    header: Header, names: Sequence[str], positions: Sequence[float], rates: Sequence[float]
+    header: Header,
+    names: Sequence[str],
+    positions: Sequence[float],
+    rates: Sequence[float],
+    efforts: Sequence[float] = (),
 ) -> JointState:
-    """Return a JointState; positions in rad or m, rates in rad/s or m/s."""
+    """Return a JointState; positions in rad or m, rates in rad/s or m/s, efforts in N·m or N."""
     return JointState(
         header=header,
         name=list(names),
         position=array.array('d', positions),
         velocity=array.array('d', rates),
+        effort=array.array('d', efforts),
     )
 
 

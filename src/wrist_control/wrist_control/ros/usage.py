@@ -12,6 +12,7 @@ from pathlib import Path
 
 import rclpy
 
+from wrist_control.errors import WristError
 from wrist_control.ros.parameters import OF_RCLPY, ParameterNode
 
 FLAGS = ('-h', '--help')
@@ -27,7 +28,7 @@ def is_wanted(arguments: Iterable[str]) -> bool:
 
 
 def tell(make_node: Callable[[], ParameterNode]) -> int:
-    """Print what a node hears, says and can be told; return the exit code."""
+    """Print what a node hears, says and can be told, or why not; return the exit code."""
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'OFF'
     signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # whoever reads it may stop in the middle
     rclpy.init(args=[])
@@ -35,6 +36,9 @@ def tell(make_node: Callable[[], ParameterNode]) -> int:
         node = make_node()
         print(*_lines(node), sep='\n')
         node.destroy_node()
+    except WristError as error:
+        print(f'Cannot start: {error}', file=sys.stderr)
+        return 2
     finally:
         rclpy.try_shutdown()
     return 0
