@@ -7,8 +7,9 @@ import pytest
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 
-from wrist_control import WRISTS, make_wrist
+from wrist_control import make_wrist
 from wrist_control.nodes.resolver_settings import CAREFUL, SLOWING_DOWN
+from wrist_control.physics.models import MODELS
 from wrist_interfaces.msg import WristStatus
 
 from .physics_flown import RATE, PhysicsFlown
@@ -31,7 +32,7 @@ def gentlest_stop(wrist):
     return [CAREFUL[joint.kind] / SLOWING_DOWN / RATE for joint in make_wrist(wrist).joints]
 
 
-@pytest.mark.parametrize('wrist', WRISTS)
+@pytest.mark.parametrize('wrist', MODELS)
 def test_every_wrist_flies_the_stick_and_the_basic_test_and_the_hand_is_where_it_is_told(
     graph, wrist
 ):
@@ -102,7 +103,7 @@ def test_a_servo_that_can_do_no_more_stops_the_hand_in_a_ramp(graph):
     flown.stop(operator)
 
 
-@pytest.mark.parametrize('wrist', WRISTS)
+@pytest.mark.parametrize('wrist', MODELS)
 def test_a_resolver_that_starts_on_a_moving_sagging_mechanism_does_not_jump(graph, wrist):
     """Its first command is where the joints came to rest; the servos sag once more from there."""
     flown = PhysicsFlown(graph, wrist, servo_bandwidth=25.0, loop_delay=0.03, **LOADED)

@@ -13,9 +13,10 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
-from wrist_control import WRISTS, WristError, make_wrist
+from wrist_control import WristError, make_wrist
 from wrist_control.nodes.physics_settings import SPECS, driven
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
+from wrist_control.physics.models import MODELS
 
 from .physics_flown import RATE, PhysicsFlown
 
@@ -73,7 +74,7 @@ class Told:
         return {key: count for key, count in counts.items() if key.startswith('refused')}
 
 
-@pytest.mark.parametrize('wrist', WRISTS)
+@pytest.mark.parametrize('wrist', MODELS)
 def test_before_a_command_is_heard_the_servos_hold_the_wrist_at_home(graph, wrist):
     flown = PhysicsFlown(graph, wrist, **CALM)
     flown.pass_time(0.5)
@@ -263,6 +264,7 @@ sys.modules['mujoco'] = None
 sys.argv[0] = 'physics_simulator'
 from wrist_control.nodes.physics_settings import SPECS, driven
 from wrist_control.nodes.physics_simulator import main
+from wrist_control.physics.models import MODELS
 main()
 """
 

@@ -10,8 +10,8 @@ pytest.importorskip('mujoco', reason='`make setup-physics` gets it')
 from wrist_control.errors import UnreachableError, UnstableError
 from wrist_control.physics.driven import DrivenMechanism, Drives
 from wrist_control.physics.mechanism import Mechanism, Settings
-from wrist_control.physics.models import build
-from wrist_control.wrists import WRISTS, make_wrist
+from wrist_control.physics.models import MODELS, build
+from wrist_control.wrists import make_wrist
 
 PERIOD = 0.01
 G = 9.80665
@@ -37,7 +37,7 @@ def passed(mechanism, told, seconds):
     return [mechanism.advance(told) for _ in range(round(seconds / PERIOD))]
 
 
-@pytest.mark.parametrize('wrist', WRISTS)
+@pytest.mark.parametrize('wrist', MODELS)
 def test_it_stays_where_it_starts_while_nothing_pulls_at_it(wrist):
     mechanism = driven(wrist)
     home = mechanism.reading
@@ -71,7 +71,7 @@ def test_friction_that_is_stronger_than_the_servo_holds_a_joint():
     assert abs(passed(held, (0.2, 0.0, 0.0), 0.5)[-1].positions[0]) < 1e-4
 
 
-@pytest.mark.parametrize('wrist', WRISTS)
+@pytest.mark.parametrize('wrist', MODELS)
 def test_a_stuck_joint_stays_where_it_is_until_it_is_free_again(wrist):
     mechanism = driven(wrist)
     home = np.array(mechanism.reading.positions)
@@ -138,7 +138,7 @@ def shake(mechanism):
         assert np.isfinite([*reading.positions, *reading.rates, *reading.efforts]).all()
 
 
-@pytest.mark.parametrize('wrist', WRISTS)
+@pytest.mark.parametrize('wrist', MODELS)
 def test_what_is_torn_apart_is_said_and_never_read(wrist, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     mechanism = driven(wrist, step=0.005, bandwidth=1000.0, gravity=FALLING, payload=1.0)

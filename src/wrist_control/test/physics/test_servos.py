@@ -7,10 +7,10 @@ import pytest
 
 pytest.importorskip('mujoco', reason='the extra physics is not installed')
 
-from wrist_control import WRISTS, UnreachableError, make_wrist
+from wrist_control import UnreachableError, make_wrist
 from wrist_control.errors import UnstableError
 from wrist_control.physics.mechanism import Settings
-from wrist_control.physics.models import build
+from wrist_control.physics.models import MODELS, build
 
 AIM = (0.2, -0.3, 0.4)
 
@@ -19,7 +19,7 @@ def gimbals(**settings):
     return build(make_wrist('three_gimbal'), Settings(**settings))
 
 
-@pytest.mark.parametrize('name', WRISTS)
+@pytest.mark.parametrize('name', MODELS)
 def test_a_mechanism_starts_where_it_is_told_without_a_kick(name):
     wrist = make_wrist(name)
     mechanism = build(wrist)
@@ -133,7 +133,7 @@ def test_physics_is_the_same_in_every_run(name):
     assert ends[0] == ends[1]
 
 
-@pytest.mark.parametrize('name', WRISTS)
+@pytest.mark.parametrize('name', MODELS)
 def test_the_hand_twist_is_how_the_hand_moves(name):
     wrist = make_wrist(name)
     mechanism = build(wrist, Settings(step=1e-4))

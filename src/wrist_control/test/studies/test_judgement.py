@@ -8,9 +8,9 @@ import pytest
 
 pytest.importorskip('mujoco', reason='the extra physics is not installed')
 
-from wrist_control import WRISTS, make_wrist
+from wrist_control import make_wrist
 from wrist_control.physics.mechanism import Mechanism
-from wrist_control.physics.models import build
+from wrist_control.physics.models import MODELS, build
 from wrist_control.rotations import IDENTITY, rates_between
 from wrist_control.studies import judgement
 from wrist_control.studies.judgement import BOUND, FIRM, LOADED, aims, expected_efforts, judge
@@ -31,7 +31,7 @@ LINKS = [
 ]
 
 
-@pytest.mark.parametrize('name', WRISTS)
+@pytest.mark.parametrize('name', MODELS)
 def test_physics_and_kinematics_agree(name):
     verdict = judge(make_wrist(name), POSES)
     assert verdict.poses == POSES
@@ -48,12 +48,12 @@ def test_a_wrong_length_shows(name, link):
 
 def test_every_dimension_of_a_link_is_made_wrong_once():
     others = {'gain', 'cone_half_angle', 'plunge', 'home_height'}
-    every = {(name, own) for name in WRISTS for own in make_wrist(name).dimensions()}
+    every = {(name, own) for name in MODELS for own in make_wrist(name).dimensions()}
     assert {(name, own) for name, own in every if own not in others} == set(LINKS)
 
 
 # A leg of the platform turns about its foot: however its slide is mounted, it ends at its head.
-@pytest.mark.parametrize('name', [name for name in WRISTS if name != 'stewart'])
+@pytest.mark.parametrize('name', [name for name in MODELS if name != 'stewart'])
 def test_a_wrong_axis_shows(name, monkeypatch):
     def tilted(wrist, *settings):
         mechanism = build(wrist, *settings)
@@ -67,7 +67,7 @@ def test_a_wrong_axis_shows(name, monkeypatch):
     assert max(verdict.position, verdict.attitude) > 2.0 * BOUND
 
 
-@pytest.mark.parametrize('name', WRISTS)
+@pytest.mark.parametrize('name', MODELS)
 def test_a_wrong_jacobian_shows_in_motion_and_in_efforts(name, monkeypatch):
     wrist = make_wrist(name)
     right = type(wrist).jacobian
@@ -94,7 +94,7 @@ def test_the_judge_is_the_same_in_every_run():
     assert first == second
 
 
-@pytest.mark.parametrize('name', WRISTS)
+@pytest.mark.parametrize('name', MODELS)
 def test_poses_are_far_apart_and_inside_the_workspace(name):
     wrist = make_wrist(name)
     chosen = list(islice(aims(wrist, np.random.default_rng(1)), 10))

@@ -22,8 +22,8 @@ from wrist_control.flight import Flight, fly
 from wrist_control.operating.maneuvers import BARKER_SPEED, stick
 from wrist_control.physics.driven import DrivenMechanism, Drives
 from wrist_control.physics.mechanism import Settings
-from wrist_control.physics.models import build
-from wrist_control.wrists import WRISTS, Wrist, make_wrist
+from wrist_control.physics.models import MODELS, build
+from wrist_control.wrists import Wrist, make_wrist
 
 # What is flown: the stick with its first seed, steps/s.
 RATE, SECONDS = 100.0, 20.0
@@ -121,7 +121,7 @@ def follow(flight: Flight, case: Case) -> Errors:
 def study(seconds: float = SECONDS) -> dict[str, dict[str, Errors | None]]:
     """Return the errors of every wrist by case; None where the physics diverges."""
     found: dict[str, dict[str, Errors | None]] = {}
-    for name in track(WRISTS, 'flying', transient=True):
+    for name in track(MODELS, 'flying', transient=True):
         flight = flown(make_wrist(name), seconds)
         found[name] = {}
         for case, given in CASES.items():

@@ -14,8 +14,9 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
+from wrist_control.physics.models import MODELS
 from wrist_control.studies.judgement import BOUND, LOADED, Verdict, judge
-from wrist_control.wrists import WRISTS, make_wrist
+from wrist_control.wrists import make_wrist
 
 POSES = 50
 HEADINGS = ('wrist', 'poses', 'position', 'attitude', 'motion', 'efforts', 'steps/s')
@@ -62,8 +63,8 @@ def main(poses: int = POSES, step: float = LOADED.step) -> bool:
     console = Console()
     verdicts = {}
     with Progress(console=console, transient=True) as progress:
-        task = progress.add_task('judging', total=poses * len(WRISTS))
-        for name in WRISTS:
+        task = progress.add_task('judging', total=poses * len(MODELS))
+        for name in MODELS:
             progress.update(task, description=f'judging {name}')
             verdicts[name] = judge(
                 make_wrist(name),
