@@ -264,7 +264,6 @@ sys.modules['mujoco'] = None
 sys.argv[0] = 'physics_simulator'
 from wrist_control.nodes.physics_settings import SPECS, driven
 from wrist_control.nodes.physics_simulator import main
-from wrist_control.physics.models import MODELS
 main()
 """
 
