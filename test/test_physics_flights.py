@@ -53,7 +53,7 @@ def test_every_wrist_flies_the_stick_and_the_basic_test_and_the_hand_is_where_it
     assert place.max() < PLACE_NEAR_LOCK
 
 
-@pytest.mark.parametrize('wrist', ['three_gimbal', 'omni_wrist', 'stewart'])
+@pytest.mark.parametrize('wrist', MODELS)
 def test_a_joint_that_sticks_in_motion_stops_the_hand_in_a_ramp(graph, wrist):
     flown = PhysicsFlown(graph, wrist, **LOADED)
     flown.resolve()
