@@ -39,7 +39,7 @@ def test_every_wrist_flies_the_stick_and_the_basic_test_and_the_hand_is_where_it
     flown = PhysicsFlown(graph, wrist, **LOADED)
     flown.resolve()
     flown.fly('stick', 64)
-    flown.fly('basic_test', 220)
+    flown.fly('basic_test', 300)
     states = {status.state for status in flown.heard['wrist_status']}
     assert WristStatus.FAULT not in states
     turned = [state.position for state in flown.heard['joint_states']]
