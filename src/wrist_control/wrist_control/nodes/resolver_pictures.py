@@ -66,12 +66,14 @@ class Pictures:
     def _publish(self, header: Header, taken: Step, lost_axis: Vector, message: str) -> None:
         draw = self._count % self._every == 0 and self._markers.get_subscription_count() > 0
         self._count += 1
-        if not draw and not self._frames.get_subscription_count():
+        frame = self._frames.get_subscription_count() > 0
+        if not (draw or frame):
             return
         bodies = self._wrist.bodies(taken.state.positions)
-        _, *moving, hand = bodies
-        frames = [(self._prefix + body.name, body.pose) for body in moving]
-        self._frames.publish(frame_transforms(header, [*frames, (self._hand, hand.pose)]))
+        if frame:
+            _, *moving, hand = bodies
+            frames = [(self._prefix + body.name, body.pose) for body in moving]
+            self._frames.publish(frame_transforms(header, [*frames, (self._hand, hand.pose)]))
         if draw:
             if self._drawn is None:
                 self._drawn = MechanismMarkers(self._wrist)
