@@ -33,11 +33,12 @@ def wrist_class(name: str) -> type[Wrist]:
     if name in WRISTS:
         kind: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), WRISTS[name])
         return kind
-    if name not in wrist_names():
+    others = plugged_in()
+    if name not in others:
         raise InvalidValueError(
-            f'There is no wrist {name!r}; the wrists are {", ".join(wrist_names())}.'
+            f'There is no wrist {name!r}; the wrists are {", ".join([*WRISTS, *others])}.'
         )
-    return plugged_in_class(plugged_in()[name])
+    return plugged_in_class(others[name])
 
 
 def wrist_names() -> tuple[str, ...]:
