@@ -148,16 +148,11 @@ class DrivenMechanism:
         numbers = (*positions, *rates, *efforts, *pose.quaternion, *pose.position)
         if not np.isfinite(numbers).all():
             raise UnstableError(_torn('not every number is finite'))
-        if (gap := self._widest_gap()) > TORN:
+        if (gap := mechanism.opening) > TORN:
             raise UnstableError(_torn(f'its loops are open by {gap:.2g} m (rad)'))
         return Reading(
             tuple(positions.tolist()), tuple(rates.tolist()), tuple(efforts.tolist()), pose
         )
-
-    def _widest_gap(self) -> float:
-        data = self._mechanism.data
-        gaps = data.efc_pos[data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY]
-        return float(np.max(np.abs(gaps), initial=0.0))
 
 
 def _torn(what: str) -> str:

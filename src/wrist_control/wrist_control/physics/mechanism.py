@@ -124,6 +124,12 @@ class Mechanism:
         _, rows = self._loops()
         return float(np.linalg.svd(self._held(rows))[1][-1]) / self._firm
 
+    @property
+    def opening(self) -> float:
+        """How far a loop or a gear is open at most, m or rad."""
+        opened, _ = self._loops()
+        return float(np.max(np.abs(opened), initial=0.0))
+
     def command(self, targets: Numbers, rates: Numbers | None = None) -> None:
         """Tell the servos where to go.
 
