@@ -202,7 +202,7 @@ class Carpal(Wrist):
 
     def margin(self, positions: Sequence[float]) -> float:
         """Return the smallest of what is left of the legs, of the tilt and of the midplane."""
-        return min(self._distances(positions))
+        return min(self._distances(self._midplane(positions)))
 
     def lost_axis(self, positions: Sequence[float]) -> Vector:
         """Return the tilt that needs the fastest joints, the plunge held, in hand axes."""
@@ -212,24 +212,9 @@ class Carpal(Wrist):
 
     def clearances(self, positions: Sequence[float]) -> tuple[Clearance, ...]:
         """Return what is left to the workspace edge, in sines of angles, and to a loose hand."""
-        edges = map(soft_edge, EDGES, self._distances(positions))
-        return (*edges, soft_edge(LOOSE, self.firmness(positions)))
-
-    def firmness(self, positions: Sequence[float]) -> float:
-        """Return how firmly the legs hold the hand while no drive moves, 0 where it is loose.
-
-        There the upper links can turn and leave the mid-nodes where they are: |s12 s23 s31 +
-        s21 s32 s13|, s_ij the cosine between m_i − m_j and ∂m_i/∂θ_i. docs/equations.md.
-        """
-        nodes = self._midplane(positions).nodes
-        shares = {
-            (i, j): _cosine(_from(nodes[j], nodes[i]), theta, *AZIMUTHS[i])
-            for i, theta in enumerate(positions)
-            for j in range(3)
-            if i != j
-        }
-        around = shares[0, 1] * shares[1, 2] * shares[2, 0]
-        return abs(around + shares[1, 0] * shares[2, 1] * shares[0, 2])
+        plane = self._midplane(positions)
+        edges = map(soft_edge, EDGES, self._distances(plane))
+        return (*edges, soft_edge(LOOSE, _firmness(plane.nodes, positions)))
 
     def bodies(self, positions: Sequence[float]) -> tuple[Body, ...]:
         """Return the base, three legs of two links, and the hand, which is the base mirrored."""
@@ -256,8 +241,16 @@ class Carpal(Wrist):
         forearm = Body('forearm', body.AT_REST, (plate, stem), tuple(base))
         return (forearm, *legs, body.hand(pose, tuple(distal), plate, probe=self.probe))
 
-    def _distances(self, positions: Sequence[float]) -> tuple[float, ...]:
-        _, normal, area, lifts = self._midplane(positions)
+    def firmness(self, positions: Sequence[float]) -> float:
+        """Return how firmly the legs hold the hand while no drive moves, 0 where it is loose.
+
+        There the upper links can turn and leave the mid-nodes where they are: |s12 s23 s31 +
+        s21 s32 s13|, s_ij the cosine between m_i − m_j and ∂m_i/∂θ_i. docs/equations.md.
+        """
+        return _firmness(self._midplane(positions).nodes, positions)
+
+    def _distances(self, plane: _Midplane) -> tuple[float, ...]:
+        _, normal, area, lifts = plane
         legs = (abs(lift) / self.leg_length for lift in lifts)
         return (*legs, abs(normal[2]), area / (self.base_radius + self.leg_length) ** 2)
 
@@ -286,6 +279,14 @@ def _at_edge(edge: str) -> UnreachableError:
 def _leg(hinge: Vector, along: Vector, across: Vector) -> Pose:
     """Return where a link is: x along it, y along its hinge."""
     return Pose(quaternion_of((along, across, cross(along, across))), hinge)
+
+
+def _firmness(nodes: Sequence[Vector], positions: Sequence[float]) -> float:
+    around, back = (
+        math.prod(_cosine(_from(nodes[j], nodes[i]), positions[i], *AZIMUTHS[i]) for i, j in pairs)
+        for pairs in (((0, 1), (1, 2), (2, 0)), ((1, 0), (2, 1), (0, 2)))
+    )
+    return abs(around + back)
 
 
 def _cosine(edge: Vector, theta: float, cos: float, sin: float) -> float:
