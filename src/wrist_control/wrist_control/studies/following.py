@@ -23,6 +23,7 @@ from wrist_control.operating.maneuvers import BARKER_SPEED, stick
 from wrist_control.physics.driven import DrivenMechanism, Drives
 from wrist_control.physics.mechanism import Settings
 from wrist_control.physics.models import MODELS, build
+from wrist_control.rotations import quaternion_of, rates_between
 from wrist_control.wrists import Wrist, make_wrist
 
 # What is flown: the stick with its first seed, steps/s.
@@ -110,10 +111,8 @@ def follow(flight: Flight, case: Case) -> Errors:
     errors = []
     for row, command in enumerate(told[: len(positions) - 1], start=1):
         pose = mechanism.advance(command).hand_pose
-        # Barker's C takes forearm axes to hand axes: the trace of one against the other tells.
-        off = pose.rotation @ flight.hand_rotation[row].T
-        sines = (off[1, 2] - off[2, 1], off[2, 0] - off[0, 2], off[0, 1] - off[1, 0])
-        turn = math.atan2(0.5 * math.hypot(*sines), 0.5 * (np.trace(off) - 1.0))
+        told_to = quaternion_of(flight.hand_rotation[row])
+        turn = math.hypot(*rates_between(told_to, pose.quaternion, 1.0))
         errors.append((turn, math.dist(pose.position, flight.hand_position[row])))
     return Errors(*np.max(errors, axis=0).tolist())
 
