@@ -19,14 +19,14 @@ setup-%:
 	@scripts/setup $*
 
 .PHONY: test
-test: setup-test setup-docs setup-physics  ## check the code with ruff and mypy, then run every test
+test: setup-test setup-docs setup-physics setup-console setup-record  ## check the code with ruff and mypy, then run every test
 	@lint=0; ./env python3 scripts/lint.py || lint=$$?; \
 	ROS_PYTHON_CHECK_FIELDS=1 ./env python3 -m pytest -n 2 || exit $$?; \
 	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
 	exit $$lint
 
 .PHONY: coverage
-coverage: setup-test setup-docs setup-physics  ## run every test, and show in out/coverage/ which lines none of them runs
+coverage: setup-test setup-docs setup-physics setup-console setup-record  ## run every test, and show in out/coverage/ which lines none of them runs
 	@./env python3 -m coverage erase; tests=0; \
 	./env python3 -m coverage run -m pytest -n 2 || tests=$$?; \
 	./env python3 -m coverage combine --quiet && ./env python3 -m coverage report && \

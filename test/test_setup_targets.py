@@ -22,9 +22,10 @@ PYTHONS = ('3.10.13', '3.11.7', '3.12.1', '3.13.0')
 
 # Those who only look at the wrists shall not wait for what checks the code.
 LIGHT = ('demo', 'compare', 'dexterity', 'hour', 'campaign')
+EVERYTHING = {f'setup-{extra}' for extra in EXTRAS}
 HEAVY = {
-    'test': {'setup-test', 'setup-docs', 'setup-physics'},
-    'coverage': {'setup-test', 'setup-docs', 'setup-physics'},
+    'test': EVERYTHING,
+    'coverage': EVERYTHING,
     'judge': {'setup-physics'},
     'lint': {'setup-test'},
     'format': {'setup-test'},

@@ -60,8 +60,10 @@ setup(
     python_requires='>=3.10',
     install_requires=['numpy>=1.26'],
     extras_require={
+        'console': ['nicegui>=3.18'],
         'figures': ['matplotlib', 'pillow', 'rich'],
         'physics': ['mujoco>=3.3', 'rich'],
+        'record': ['mcap>=1.2', 'rosbags>=0.10'],
         # ROS 2 Jazzy from its wheels; wrist_interfaces and tf2_msgs are built beside it.
         'ros': ['ros-jazzy-common-interfaces==5.3.6', 'ros-jazzy-rclpy[fastrtps]==7.1.6'],
         # By this name `colcon test` knows which tool runs the tests.
