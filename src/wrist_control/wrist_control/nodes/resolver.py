@@ -72,10 +72,9 @@ class Resolver(GuardedNode):
         """
         self._hidden: list[Subscription] = []
         super().__init__(f'{wrist_name or ANY}_resolver', **node_options)
-        chosen = () if wrist_name else (wrist_spec(),)
-        for spec in chosen:
-            wrist_name = str(self.given(spec))
-        self._values = completed(self.declare([*chosen, *specs(wrist_name)]))
+        chosen = wrist_spec(wrist_name)
+        wrist_name = str(self.given(chosen))
+        self._values = completed(self.declare([chosen, *specs(wrist_name)]))
         self._started = dict(self._values)
         wrist = limited(mechanism(wrist_name, self._values), self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
