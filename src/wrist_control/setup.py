@@ -14,6 +14,7 @@ PACKAGE = MANIFEST.findtext('name')
 
 # Executables that do not depend on the kind of wrist: the name, and the module under nodes/.
 NODES = [
+    'console',
     'joint_simulator',
     'operator',
     'physics_simulator',
@@ -50,6 +51,7 @@ setup(
     license_files=['LICENSE'],
     maintainer=MANIFEST.findtext('maintainer'),
     maintainer_email=MANIFEST.find('maintainer').get('email'),
+    package_data={f'{PACKAGE}.web': ['*.js', '*.css']},
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     py_modules=[f'{PACKAGE}_start'],
     data_files=[

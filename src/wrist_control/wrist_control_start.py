@@ -11,6 +11,8 @@ from functools import partial
 from importlib import import_module
 
 NODES = 'wrist_control.nodes'
+# Executables that stand in a room of their own.
+ROOMS = {'console': 'wrist_control.web'}
 
 
 def __getattr__(name: str) -> partial[None]:
@@ -27,4 +29,4 @@ def _start(executable: str) -> None:
     if wrist != executable:
         import_module(f'{NODES}.resolver').main(wrist)
     else:
-        import_module(f'{NODES}.{executable}').main()
+        import_module(f'{ROOMS.get(executable, NODES)}.{executable}').main()

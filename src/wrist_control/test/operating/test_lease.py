@@ -120,9 +120,7 @@ def test_held_is_only_what_its_holder_said_just_now(sayings):
         if does == 'renew':
             grips[holder] += anew or not grips[holder]
             grip = (holder, grips[holder])
-            counts = (
-                grip not in dead and age <= LASTS and (last is None or last[0] == holder)
-            )
+            counts = grip not in dead and age <= LASTS and (last is None or last[0] == holder)
             said = lease.renew(Renewal(*grip, now - age, None), now)
             if math.isclose(age, LASTS, abs_tol=1e-9):
                 return  # on the edge rounding decides
