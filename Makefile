@@ -76,6 +76,10 @@ judge: setup-physics  ## let MuJoCo move every wrist, and compare it with our ki
 gallery: setup  ## draw every wrist as its mechanism, still and in motion
 	@./env python3 -m wrist_control.studies.gallery
 
+.PHONY: console
+console: setup-console  ## hold the stick of a simulated wrist in a web page
+	@./env console --ros-args -p start:=three_gimbal
+
 .PHONY: docs
 docs: setup-docs  ## write docs/wrists.md from the code, and build the site in out/site
 	@./env python3 scripts/wrist_table.py

@@ -57,7 +57,8 @@ def words(command, document, folder):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(content)
         command = command.replace(f' {name}', f' {folder / name}')
-    return shlex.split(command)
+    # Pages are served side by side where tests are.
+    return shlex.split(command) + ['-p', 'port:=0'] * (' console ' in command)
 
 
 @pytest.mark.parametrize(('command', 'document'), NODES)

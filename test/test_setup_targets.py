@@ -26,6 +26,7 @@ EVERYTHING = {f'setup-{extra}' for extra in EXTRAS}
 HEAVY = {
     'test': EVERYTHING,
     'coverage': EVERYTHING,
+    'console': {'setup-console'},
     'judge': {'setup-physics'},
     'lint': {'setup-test'},
     'format': {'setup-test'},

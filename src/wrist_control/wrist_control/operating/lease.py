@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from typing import Generic, NamedTuple, TypeVar
 
-# s after the last renewal until whoever held the stick has let it go.
-LASTS = 0.25
+# s after the last renewal until whoever held the stick has let it go, and how old its beat may be.
+LASTS, OLDEST = 0.25, 0.35
 
 Asked = TypeVar('Asked')
 
@@ -63,7 +63,7 @@ class Lease(Generic[Asked]):
         if held is not None and renewal.holder != held.holder:
             self._ended[renewal.holder] = renewal.grip
             return 'Somebody else holds the stick: take it when they have let go.'
-        if not 0.0 <= now - renewal.beat <= self._lasts:
+        if not 0.0 <= now - renewal.beat <= OLDEST:
             self.release(renewal.holder)
             self._ended[renewal.holder] = renewal.grip
             return 'That came too late to count: let go, and take the stick anew.'

@@ -14,9 +14,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 
-from wrist_control.rotations import Pose
 from wrist_control.wrists.body import HAND, Body, colours
-from wrist_control.wrists.surface import triangles
+from wrist_control.wrists.surface import placed, triangles
 
 # From where the picture is seen and lit: azimuth and elevation, rad.
 CAMERA = (math.radians(-55.0), math.radians(24.0))
@@ -31,11 +30,6 @@ class Window(NamedTuple):
     right: float
     bottom: float
     top: float
-
-
-def placed(points: np.ndarray, pose: Pose) -> np.ndarray:
-    """Return points given in the axes of a pose in forearm axes, shape (…, 3), m."""
-    return points @ pose.rotation + np.array(pose.position)
 
 
 def seen(points: np.ndarray) -> np.ndarray:

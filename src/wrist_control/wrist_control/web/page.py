@@ -28,12 +28,23 @@ if TYPE_CHECKING:
 UPDATES, SHOWN = 30.0, 10.0
 FLOWN = [name for name in MANEUVERS if name != 'hold']
 ABSENT = 'NOBODY'
+# With this in its address, after a question mark, a page has no pictures: for slow devices.
+PLAIN = 'plain'
 WAITS = 'No wrist is here yet: start a resolver, or wait for it.'
 STYLE = (Path(__file__).parent / 'page.css').read_text()
-# Stops by a request of its own, which needs nothing of the page but the network.
-STOP = """
+# A stop is a request of its own, which needs nothing of the page but the network.
+SCRIPT = """
 <script>
   window.stopEverything = () => fetch("/stop", {method: "POST", keepalive: true});
+  // A scene looks at its size when the window says that it has another one.
+  window.addEventListener("load", () => {
+    const told = new ResizeObserver(() => window.dispatchEvent(new Event("resize")));
+    const watch = setInterval(() => {
+      const cards = document.querySelectorAll(".card");
+      if (cards.length) clearInterval(watch);
+      cards.forEach((card) => told.observe(card));
+    }, 50);
+  });
 </script>
 """
 
@@ -53,7 +64,8 @@ class _Page:
         self._shown: list[Wrist | None] = [None, None]
         self._pushed = 0
         self._speed = math.degrees(console.values['speed'])
-        ui.add_head_html(STOP)
+        self._draws = PLAIN not in client.request.query_params
+        ui.add_head_html(SCRIPT)
         ui.add_css(STYLE)
         ui.query('body').classes('console')
         with ui.element('main').classes('page'):
@@ -63,7 +75,7 @@ class _Page:
             with ui.element('section').classes('scenes'):
                 self._cards = [self._card(slot) for slot in range(2)]
             with ui.element('section').classes('strips'):
-                self._strips = Strips(SHOWN)
+                self._strips = Strips(SHOWN) if self._draws else None
             with ui.element('section').classes('controls'):
                 self._controls()
         ui.timer(1.0 / UPDATES, self._update)
@@ -92,9 +104,9 @@ class _Page:
         select.props('dense outlined options-dense').classes('choice').on_value_change(chosen)
         ui.timer(0.5, lambda: select.set_value(self._console.names[slot]))
 
-    def _card(self, slot: int) -> tuple[WristScene, Any, Any]:
+    def _card(self, slot: int) -> tuple[WristScene | None, Any, Any]:
         with ui.element('div').classes('card' if slot == 0 else 'card second') as card:
-            scene = WristScene()
+            scene = WristScene() if self._draws else None
             figures = ui.label('').classes('figures')
         card.set_visibility(slot == 0)
         return scene, figures, card
@@ -116,7 +128,7 @@ class _Page:
                 round(self._speed),
                 self._set_speed,
             )
-            self._slider('Joints at most', '% of their rates', 5, 100, 100, self._limit)
+            self._slider('Joint rates', '%', 5, 100, 100, self._limit)
             ui.html(
                 'Keys <kbd>W</kbd><kbd>S</kbd> q, <kbd>A</kbd><kbd>D</kbd> p, '
                 '<kbd>Q</kbd><kbd>E</kbd> r, <kbd>Space</kbd> stop. '
@@ -193,13 +205,15 @@ class _Page:
             return
         if wrist is not self._shown[slot]:
             self._shown[slot] = wrist
-            scene.show(wrist)
-            if slot == 0:
+            if scene is not None:
+                scene.show(wrist)
+            if slot == 0 and self._strips is not None:
                 self._strips.show(strips(wrist))
         if watched.positions is None or status is None:
             return
         lost = status.lost_axis
-        scene.move(watched.positions, (lost.x, lost.y, lost.z), status.margin)
+        if scene is not None:
+            scene.move(watched.positions, (lost.x, lost.y, lost.z), status.margin)
         figures.set_text(self._figures(watched))
 
     def _figures(self, watched: WatchedWrist) -> str:
@@ -231,7 +245,7 @@ class _Page:
     def _push(self) -> None:
         first = self._console.wrists[0]
         fresh = [one for one in tuple(first.samples) if one.number > self._pushed]
-        if not fresh or first.wrist is None:
+        if not fresh or first.wrist is None or self._strips is None:
             return
         self._pushed = fresh[-1].number
         self._strips.push([row(first.wrist, fresh[-1])])

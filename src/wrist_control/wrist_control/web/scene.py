@@ -12,18 +12,19 @@ from nicegui.elements.scene.scene_object3d import Object3D
 from wrist_control.rotations import IDENTITY, Pose, Vector, to_forearm
 from wrist_control.web.reach import edge_of_reach
 from wrist_control.wrists import Wrist
-from wrist_control.wrists.body import BAR, HAND, Ball, Body, Rod, colours, scaled, turn_of_z
-from wrist_control.wrists.surface import triangles
+from wrist_control.wrists.body import HAND, Ball, Body, Rod, colours, turn_of_z
+from wrist_control.wrists.surface import placed, triangles
 
 # Three.js sees best what is about as large as one: 1 m is so much there.
 SCALE = 10.0
 # The trail: so many points at most, so far apart at least, m.
 TRAIL, APART = 160, 0.002
+DOT = 0.015  # of the probe's length
 LOST, EDGE = '#f43f5e', '#f59e0b'
 BACKGROUND = '#0d131b'
 # Where the camera stands, as a direction, and how far away in sizes of the mechanism.
 CAMERA: Vector = (0.72, -1.0, 0.55)
-AWAY = 1.45
+AWAY = 1.2
 
 
 class Surface(Object3D, component='surface.js'):
@@ -73,12 +74,13 @@ class WristScene:
             self._trail = self._scene.point_cloud([[0.0, 0.0, 0.0]], point_size=0.025)
             self._trail.material(HAND)
             reach = math.hypot(*wrist.probe)
-            axis = Rod(scaled((0, 0, 1), -0.7 * reach), scaled((0, 0, 1), 0.7 * reach), 0.6 * BAR)
+            axis = Rod((0.0, 0.0, -0.7 * reach), (0.0, 0.0, 0.7 * reach), DOT * reach)
             self._lost = Surface(triangles(axis)).material(LOST)
-            for tip in edge_of_reach(wrist):
-                Surface(triangles(Ball(tip, 0.7 * BAR))).material(EDGE)
+            edge = edge_of_reach(wrist)
+            for tip in edge:
+                Surface(triangles(Ball(tip, DOT * reach))).material(EDGE)
         self._poses = [Pose(IDENTITY)] * len(bodies)
-        self._look_at(bodies)
+        self._look_at(bodies, edge)
 
     @staticmethod
     def _body(body: Body, colour: str) -> Object3D:
@@ -86,13 +88,14 @@ class WristScene:
             colour
         )
 
-    def _look_at(self, bodies: Sequence[Body]) -> None:
+    def _look_at(self, bodies: Sequence[Body], edge: Sequence[Vector]) -> None:
         corners = np.concatenate(
             [
-                triangles(shape).reshape(-1, 3) @ body.pose.rotation + body.pose.position
+                placed(triangles(shape).reshape(-1, 3), body.pose)
                 for body in bodies
                 for shape in body.shapes
             ]
+            + [np.array([tip]) for tip in edge]
         )
         low, high = corners.min(axis=0), corners.max(axis=0)
         centre = SCALE * 0.5 * (low + high)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import socket
 import threading
 from ipaddress import ip_address
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from wrist_control.web.console import Console
 
 TITLE = 'wrist_control'
-# s that the server may take to end; pages that are open do not keep it.
+# s that the server may take to end.
 ENDS_WITHIN = 2.0
 
 
@@ -76,7 +77,8 @@ class Server:
         self._thread.start()
 
     def close(self) -> None:
-        """Serve no more."""
+        """Serve no more: pages that are open are cut off, and nothing is said of it."""
+        logging.getLogger('uvicorn.error').setLevel(logging.CRITICAL)
         self._server.should_exit = self._server.force_exit = True
         self._thread.join(ENDS_WITHIN)
 

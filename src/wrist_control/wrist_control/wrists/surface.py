@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from wrist_control.rotations import Pose
 from wrist_control.wrists.body import Arc, Ball, Plate, Rod, Shape
 
 # Sides of a bar; and how much longer than thick the pieces of one are at most, so that the far
@@ -22,6 +23,11 @@ def triangles(shape: Shape) -> np.ndarray:
     if isinstance(shape, Rod):
         return _rod(np.array(shape.begin), np.array(shape.end), shape.radius)
     return _arc(shape)
+
+
+def placed(points: np.ndarray, pose: Pose) -> np.ndarray:
+    """Return points given in the axes of a pose in forearm axes, shape (…, 3), m."""
+    return points @ pose.rotation + np.array(pose.position)
 
 
 def _rod(begin: np.ndarray, end: np.ndarray, radius: float) -> np.ndarray:
