@@ -45,7 +45,7 @@ demo: setup  ## fly Barker's basic test maneuver, with figures in out/
 	@./env python3 -m wrist_control.demo
 
 .PHONY: bench
-bench: setup-test setup-physics  ## measure how fast it is, as ratios within one run
+bench: setup-test setup-physics setup-console  ## measure how fast it is, as ratios within one run
 	@for script in bench/bench_*.py; do ./env python3 "$$script" || exit $$?; done
 
 .PHONY: mutants

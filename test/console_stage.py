@@ -2,7 +2,6 @@
 
 import os
 import re
-import shutil
 import signal
 import socket
 import subprocess
@@ -13,14 +12,9 @@ from pathlib import Path
 import pytest
 from rclpy.qos import QoSProfile
 
-from wrist_control.graph.processes import executable_file
+from wrist_control.web.served import BROWSER, FLAGS, MISSING, console_command
 from wrist_interfaces.msg import WristStatus
 
-BROWSERS = ('chromium', 'chromium-browser', 'google-chrome', 'google-chrome-stable')
-BROWSER = next(filter(None, map(shutil.which, BROWSERS)), None)
-MISSING = f'the page is not tried: none of {", ".join(BROWSERS)} is installed'
-# As root, where Chromium has no sandbox to offer.
-FLAGS = ['--no-sandbox'] if os.geteuid() == 0 else []
 # The hand is at rest so long after the stick was let go, s, however it was.
 REST = 0.6
 WARNINGS_OF_GRAPHICS = ('GPU stall', 'GL Driver Message')
@@ -36,10 +30,8 @@ class Console:
 
     def __init__(self, graph, environment, **parameters):
         self.graph = graph
-        given = {'port': 0, 'start': 'three_gimbal', **parameters}
         self.process = subprocess.Popen(
-            [str(executable_file('console')), '--ros-args']
-            + [part for name, value in given.items() for part in ('-p', f'{name}:={value}')],
+            console_command(**parameters),
             env={**environment, 'ROS_DOMAIN_ID': str(graph.domain)},
             stderr=subprocess.PIPE,
             text=True,
@@ -83,10 +75,14 @@ class Console:
         """Return whether the hand moved in a step that was made after a moment."""
         return stamp > since and any(self.rates(status))
 
+    def watch(self, seconds):
+        """Wait until what the wrist does in so long from now on has been heard."""
+        end = time.time() + seconds
+        self.graph.until(lambda: self.statuses and self.statuses[-1][0] >= end, 30.0 + seconds)
+
     def rests(self, since, spin=1.5):
         """Assert that the hand is at rest from `REST` after a moment on, for a while."""
-        end = max(time.time(), since + REST) + spin
-        self.graph.spin(end - time.time())
+        self.watch(max(0.0, since + REST - time.time()) + spin)
         later = [one for one in self.statuses if one[0] > since + REST]
         assert len(later) > 20
         moving = [round(t - since, 2) for t, status in later if self.moves(t, status, 0.0)]
@@ -218,4 +214,4 @@ class Forwarder:
         self.break_off()
 
 
-needs_browser = pytest.mark.skipif(BROWSER is None, reason=MISSING)
+needs_browser = pytest.mark.skipif(BROWSER is None, reason=f'the page is not tried: {MISSING}')

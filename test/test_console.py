@@ -47,7 +47,7 @@ def held_until_moving(console, hold, let_go):
     for _ in range(5):
         since = time.time()
         hold()
-        console.graph.spin(1.0)
+        console.watch(1.0)
         rates = [console.rates(status) for stamp, status in console.statuses if stamp > since]
         let_go()
         if any(map(any, rates)):

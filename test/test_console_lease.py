@@ -48,7 +48,7 @@ def take(console, page):
         page.mouse.up()
         since = time.time()
         press(page)
-        console.graph.spin(1.0)
+        console.watch(1.0)
         if any(console.moves(*one, since) for one in console.statuses):
             return
     raise AssertionError('the hand never moved')
@@ -153,11 +153,11 @@ def test_one_page_drives_and_the_other_looks(console, browser, page):
     told = other.get_by_text('Another page holds the stick')
     for _ in range(5):  # a slow browser may lose the stick again
         take(console, page)
-        console.graph.spin(0.3)
+        console.watch(0.3)
         if told.is_visible():
             break
     press(other, up=0.15)
-    console.graph.spin(0.5)
+    console.watch(0.5)
     assert not any(status.achieved.angular.y < 0.0 for _, status in console.statuses)
     since = time.time()
     page.mouse.up()
@@ -169,7 +169,7 @@ def test_one_page_drives_and_the_other_looks(console, browser, page):
 
 def press_again(console, page):
     page.mouse.up()
-    console.graph.spin(0.3)
+    console.watch(0.3)
     press(page, up=0.15)
 
 

@@ -30,7 +30,7 @@ HEAVY = {
     'judge': {'setup-physics'},
     'lint': {'setup-test'},
     'format': {'setup-test'},
-    'bench': {'setup-test', 'setup-physics'},
+    'bench': {'setup-test', 'setup-physics', 'setup-console'},
     'mutants': {'setup-test'},
     'docs': {'setup-docs'},
 }

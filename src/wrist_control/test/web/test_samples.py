@@ -43,9 +43,13 @@ def test_the_roll_that_a_pointer_is_forced_to_is_not_off_the_path():
     assert off_path(steps) > 0.1
 
 
+def test_a_hand_that_comes_to_rest_is_on_the_path():
+    assert off_path([((0.0, 0.0, 0.0), (0.0, rate, 0.0), 1.0) for rate in (0.3, 0.2, 0.1)]) == 0.0
+
+
 def test_it_begins_anew():
     path = OffPath(make_wrist('three_gimbal'))
-    path.follow((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 1.0, DT)
+    path.follow((0.0, 1e-9, 0.0), (1.0, 0.0, 0.0), 1.0, DT)
     assert path.angle == pytest.approx(DT)
     path.clear()
     assert path.angle == 0.0

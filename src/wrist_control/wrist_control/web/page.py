@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 # Updates of a page a second, and what its strips show, s.
 UPDATES, SHOWN = 30.0, 10.0
+# How long a page says why it does not drive, s.
+TOLD = 3.0
 FLOWN = [name for name in MANEUVERS if name != 'hold']
 ABSENT = 'NOBODY'
 # With this in its address, after a question mark, a page has no pictures: for slow devices.
@@ -63,6 +65,7 @@ class _Page:
         self._said = [wrist.said[0] for wrist in console.wrists]
         self._shown: list[Wrist | None] = [None, None]
         self._pushed = 0
+        self._refused = (0.0, '')
         self._speed = math.degrees(console.values['speed'])
         self._draws = PLAIN not in client.request.query_params
         ui.add_head_html(SCRIPT)
@@ -176,7 +179,7 @@ class _Page:
         refused = self._console.driver.hold(renewal, time.monotonic())
         if refused:
             self._stick.refuse(renewal.grip)
-            ui.notify(refused, type='warning', position='top', timeout=2500)
+            self._refused = (time.monotonic() + TOLD, refused)
 
     def _update(self) -> None:
         """Show what the wrists do now."""
@@ -233,14 +236,17 @@ class _Page:
         state = WristState(status.state).name if status else ABSENT
         self._state.set_text(state)
         self._state.props(f'data-state={state}')
+        self._who.set_text(self._whose(now))
+
+    def _whose(self, now: float) -> str:
+        """Return who holds the stick, or why it is not this page."""
+        until, refused = self._refused
+        if now < until:
+            return refused
         holder = self._console.driver.holder(now)
-        self._who.set_text(
-            'You hold the stick'
-            if holder == self._holder
-            else 'Another page holds the stick'
-            if holder
-            else 'Nobody holds the stick'
-        )
+        if not holder:
+            return 'Nobody holds the stick'
+        return 'You hold the stick' if holder == self._holder else 'Another page holds the stick'
 
     def _push(self) -> None:
         first = self._console.wrists[0]

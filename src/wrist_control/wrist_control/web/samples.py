@@ -65,6 +65,8 @@ class OffPath:
             scale_factor: F.
             dt: How long the step was, s.
         """
+        if not any(commanded):
+            return  # a hand that comes to rest is on the way that it was on
         p, q, r = (
             scale_factor * asked if axis in self._followed else made
             for axis, (asked, made) in enumerate(zip(commanded, achieved, strict=True))
