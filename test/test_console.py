@@ -43,17 +43,20 @@ def browser(process_environment):
 
 
 def held_until_moving(console, hold, let_go):
-    """Hold something until the hand moves; return its rates, and let go."""
-    for _ in range(5):
+    """Hold something for a second; return the fastest rates of the hand, and let go.
+
+    A page that is too slow for the stick loses it: then once more.
+    """
+    for _ in range(8):
         since = time.time()
         hold()
         console.watch(1.0)
-        rates = [console.rates(status) for stamp, status in console.statuses if stamp > since]
         let_go()
-        if any(map(any, rates)):
+        rates = [console.rates(status) for stamp, status in console.statuses if stamp > since]
+        if any(rates[-1]):
             console.rests(time.time(), spin=0.5)
             return max(rates, key=lambda one: math.hypot(*one))
-    raise AssertionError('the hand never moved')
+    raise AssertionError('the hand never moved for a second')
 
 
 @needs_browser
@@ -161,7 +164,7 @@ def test_a_limit_and_the_speed_are_set_from_the_page(start, browser):
         console, lambda: page.keyboard.down('w'), lambda: page.keyboard.up('w')
     )
     assert rates[1] == pytest.approx(math.radians(1.0), abs=1e-6)
-    drag(page, speed, 1.0)
+    drag(page, speed, 0.98)
     rates = held_until_moving(
         console, lambda: page.keyboard.down('w'), lambda: page.keyboard.up('w')
     )
