@@ -15,6 +15,7 @@ PACKAGE = MANIFEST.findtext('name')
 # Executables that do not depend on the kind of wrist: the name, and the module under nodes/.
 NODES = [
     'joint_simulator',
+    'keyboard',
     'operator',
     'physics_simulator',
     'stewart_forward_kinematics',
