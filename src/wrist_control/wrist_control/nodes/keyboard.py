@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-import shutil
 import signal
 import sys
 import textwrap
@@ -36,10 +35,10 @@ SPECS = [
     Spec('frame_id', '', 'Frame of the commands: the hand frame, the forearm frame, or empty'),
 ]
 PAGE = (
-    'Hold a key to turn the hand',
-    '  w s    pitch   forward, back    q',
-    '  a d    roll    left, right      p',
-    '  q e    yaw     left, right      r',
+    'Hold     to turn the hand        rate',
+    '  w s    pitch   forward, back      q',
+    '  a d    roll    left, right        p',
+    '  q e    yaw     left, right        r',
     '  + -    faster, slower',
     '  space  STOP    g  go on after it',
     '  Ctrl-C ends',
@@ -111,8 +110,9 @@ class Keyboard(GuardedNode):
         asked = self._keys.take(self._terminal.read(), now)
         if asked == STOP:
             self._stops.publish(Empty())
+            heard = self._stops.get_subscription_count()
             self._enabling.forget()
-            self._enabling.said = 'Sent a stop; g goes on.'
+            self._enabling.said = 'Sent a stop; g goes on.' if heard else 'Nobody hears the stop.'
         elif asked == ENABLE:
             self._enabling.ask(now)
         self._enabling.look(now)
@@ -121,10 +121,10 @@ class Keyboard(GuardedNode):
             self._publish(rates)
         self._leads = rates is not None
         if self._terminal.gone:
-            os.kill(os.getpid(), signal.SIGHUP)
+            os.kill(os.getpid(), signal.SIGTERM)
 
     def _suspend(self) -> None:
-        """Stop as every program does at Ctrl-Z, with the hand at rest and the terminal put back."""
+        """Stop as every program does at Ctrl-Z: the hand at rest, the terminal put back."""
         self._let_go()
         self._terminal.leave()
         self._suspended = False
@@ -154,7 +154,7 @@ class Keyboard(GuardedNode):
 
     def _page(self) -> Iterator[str]:
         now = self._now()
-        width = min(WIDEST, shutil.get_terminal_size().columns)
+        width = min(WIDEST, self._terminal.size()[0])
         speed = self._keys.speed
         p, q, r = self._keys.rates(now) or ZERO_RATES
         yield from PAGE

@@ -47,9 +47,7 @@ class Enabling:
         )
         if len(resolvers) != 1:
             found = shown(', '.join(resolvers)) or 'nobody'
-            self.said = (
-                f'Enables nothing: {self._topic} comes from {found}, not from one resolver.'
-            )
+            self.said = f'Enables nothing: {self._topic} comes from {found}, not one resolver.'
             return
         self.said = f'Asks {resolvers[0]} to go on.'
         self._client = self._node.create_client(SetBool, f'{resolvers[0]}/enable')

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 import select
-import shutil
 import sys
 import tempfile
 import termios
@@ -17,9 +16,11 @@ from wrist_control.errors import InvalidValueError
 IN, OUT, ERR = 0, 1, 2
 IFLAG, LFLAG, CC = 0, 3, 6
 MOST_BYTES = 1024
+# Of a terminal that does not say.
+UNKNOWN_SIZE = (80, 24)
 # Another page, no cursor, and long lines cut off; and back.
 ENTER, LEAVE = '\x1b[?1049h\x1b[?25l\x1b[?7l', '\x1b[?7h\x1b[?25h\x1b[?1049l'
-HOME, END_OF_LINE, REST = '\x1b[H', '\x1b[K\r\n', '\x1b[J'
+HOME, BLANK, BELOW = '\x1b[H', '\x1b[K', '\x1b[J'
 
 
 class Terminal:
@@ -78,11 +79,19 @@ class Terminal:
         self.gone = not typed
         return typed.decode(errors='replace')
 
+    def size(self) -> tuple[int, int]:
+        """Return the columns and rows that there are now."""
+        try:
+            found = os.get_terminal_size(OUT)  # not COLUMNS, which does not follow a window
+        except OSError:
+            return UNKNOWN_SIZE
+        return (found.columns, found.lines) if all(found) else UNKNOWN_SIZE
+
     def show(self, lines: Sequence[str]) -> None:
         """Show lines, the last ones where there is no room for all; only if they are others."""
-        size = shutil.get_terminal_size()
-        fitting = [line[: size.columns] for line in lines[-size.lines :]]
-        page = HOME + END_OF_LINE.join(fitting) + END_OF_LINE[:3] + REST
+        columns, rows = self.size()
+        fitting = [line[:columns] for line in lines[-rows:]]
+        page = HOME + f'{BLANK}\n'.join(fitting) + BLANK + BELOW
         # A terminal that takes nothing shall not hold up the keys.
         if page != self._shown and select.select([], [OUT], [], 0.0)[1]:
             self._shown = page
@@ -91,7 +100,7 @@ class Terminal:
 
     def _keep_log(self) -> None:
         if os.isatty(ERR):
-            self._log = tempfile.TemporaryFile()
+            self._log = tempfile.TemporaryFile()  # noqa: SIM115 - until the page is left
             self._stderr = os.dup(ERR)
             os.dup2(self._log.fileno(), ERR)
 

@@ -1,4 +1,4 @@
-"""Run one node until it is told to stop: SIGINT, SIGTERM, SIGHUP bring it to rest, and end it with 0.
+"""Run one node until it is told to stop: a signal brings it to rest, and ends it with 0.
 
 ROS's own signal handlers take the context away at once, in the middle of whatever is going on,
 and nothing can be said any more. Here a signal only ends the spinning.
