@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geometry_msgs.msg import TwistStamped
+from rclpy.duration import Duration
 from std_msgs.msg import Empty, Header
 
 from wrist_control.nodes.keyboard_enable import Enabling
@@ -47,6 +48,8 @@ PAGE = (
 # How often the page is looked at again, s, and how old a status may be on it.
 PAGE_PERIOD, STATUS_AGE = 0.1, 1.0
 WIDEST = 76
+# How long the last words are waited for.
+LAST_WORDS = Duration(seconds=0.5)
 
 
 class Keyboard(GuardedNode):
@@ -84,9 +87,11 @@ class Keyboard(GuardedNode):
         self.create_timer(PAGE_PERIOD, self._show, clock=self.steady)
 
     def wind_down(self) -> None:
-        """Ask for no motion, and put the terminal back."""
+        """Ask for no motion, put the terminal back, and see that the last words arrive."""
         try:
             self._let_go()
+            for said in (self._commands, self._stops):
+                said.wait_for_all_acked(LAST_WORDS)
         finally:
             self._terminal.leave()
 
