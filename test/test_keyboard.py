@@ -1,4 +1,4 @@
-"""The keyboard in a terminal of its own, with a resolver and simulated joints: a hand is turned."""
+"""The keyboard in a terminal of its own, and a resolver with simulated joints that it turns."""
 
 import os
 import signal
@@ -15,6 +15,7 @@ from wrist_interfaces.msg import WristStatus
 
 from .typing_hand import Typist
 
+KEYBOARD = [str(executable_file('keyboard'))]
 SPEED = 0.28
 # What is promised of a hand whose key was let go, s.
 AT_REST_WITHIN = 0.6
@@ -30,9 +31,9 @@ class Desk:
         self.commands = graph.listen(TwistStamped, 'cmd_vel')
         self.statuses = []
 
-    def sit_down(self, *arguments, **options):
+    def sit_down(self, *arguments, program=KEYBOARD, **options):
         environment = {**os.environ, 'ROS_DOMAIN_ID': str(self.graph.domain)}
-        typist = Typist(environment, *arguments, **options)
+        typist = Typist(environment, [*program, '--ros-args', *arguments], **options)
         self.typists.append(typist)
         self.graph.until(lambda: 'Ctrl-C ends' in typist.written)
         return typist
@@ -91,9 +92,7 @@ def hand(desk):
 def test_a_held_key_turns_the_hand_about_its_axis(hand, key, axis, sign):
     typist = hand.sit_down()
     typist.hold(key)
-    hand.graph.until(
-        lambda: getattr(hand.turns(), axis) == pytest.approx(sign * SPEED, abs=1e-6)
-    )
+    hand.graph.until(lambda: getattr(hand.turns(), axis) == pytest.approx(sign * SPEED, abs=1e-6))
     others = {P, Q, R} - {axis}
     assert all(abs(getattr(hand.turns(), other)) < 1e-6 for other in others)
 
@@ -202,7 +201,7 @@ def test_keys_that_were_held_up_while_the_keyboard_stood_still_move_nothing(hand
 
 
 def test_an_error_puts_the_terminal_back_and_is_told_afterwards(desk):
-    typist = desk.sit_down(script=BROKEN, stderr=None)
+    typist = desk.sit_down(program=['python3', '-c', BROKEN], stderr=None)
     desk.graph.until(lambda: typist.process.poll() is not None)
     assert typist.process.returncode == 1
     assert typist.attributes() == typist.found
@@ -240,7 +239,7 @@ def test_a_terminal_that_closes_ends_it(desk):
 
 def test_without_a_terminal_it_says_so_and_does_not_start(process_environment):
     done = subprocess.run(
-        [str(executable_file('keyboard'))],
+        KEYBOARD,
         env=process_environment,
         stdin=subprocess.DEVNULL,
         capture_output=True,

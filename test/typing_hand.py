@@ -12,8 +12,6 @@ import termios
 import threading
 import time
 
-from wrist_control.graph.processes import executable_file
-
 ENTERED, LEFT = '\x1b[?1049h', '\x1b[?1049l'
 REPEAT = 1.0 / 30.0
 ESCAPES = re.compile(r'\x1b\[[0-?]*[ -/]*[@-~]')
@@ -28,14 +26,14 @@ class Typist:
         last_key: When the last key was typed, s since the epoch.
     """
 
-    def __init__(self, environment, *arguments, size=(24, 80), script='', stderr=subprocess.PIPE):
+    def __init__(self, environment, command, size=(24, 80), stderr=subprocess.PIPE, folder=None):
         self.person, self.terminal = pty.openpty()
         self.resize(*size)
         self.found = self.attributes()
-        command = ['python3', '-c', script] if script else [str(executable_file('keyboard'))]
         self.process = subprocess.Popen(
-            [*command, '--ros-args', *arguments],
+            command,
             env=environment,
+            cwd=folder,
             stdin=self.terminal,
             stdout=self.terminal,
             stderr=self.terminal if stderr is None else stderr,

@@ -19,7 +19,6 @@ from wrist_control.nodes.keyboard_terminal import Terminal
 from wrist_control.operating.keys import ENABLE, STOP, Keys
 from wrist_control.operating.maneuvers import ZERO_RATES
 from wrist_control.resolving.report import WristState
-from wrist_control.rotations import Vector
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
@@ -27,6 +26,7 @@ from wrist_control.ros.parameters import Spec
 from wrist_control.ros.qos import NEWEST, OUTPUT
 from wrist_control.ros.running import run
 from wrist_control.ros.shown import SENTENCE, shown
+from wrist_control.rotations import Vector
 from wrist_interfaces.msg import WristStatus
 
 SPECS = [
