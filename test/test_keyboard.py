@@ -161,8 +161,9 @@ def test_a_signal_puts_the_terminal_back_and_ends_with_zero_asked_for(hand, numb
     hand.graph.until(lambda: hand.turns().y == 0.0)
 
 
-def test_control_c_is_such_a_signal(desk):
-    typist = desk.sit_down()
+@pytest.mark.parametrize('clock', ['false', 'true'])
+def test_control_c_is_such_a_signal(desk, clock):
+    typist = desk.sit_down('-p', f'use_sim_time:={clock}')
     typist.type('\x03')
     desk.graph.until(lambda: typist.process.poll() is not None)
     assert typist.process.returncode == 0
@@ -285,7 +286,7 @@ def test_keys_change_the_speed(hand):
     hand.graph.until(lambda: hand.turns().x == pytest.approx(0.4, abs=1e-6))
 
 
-def test_a_status_cannot_write_to_the_terminal(desk):
+def test_a_status_cannot_write_to_the_terminal_and_is_gone_when_it_is_old(desk):
     typist = desk.sit_down()
     publisher = desk.graph.publisher(WristStatus, 'wrist_status')
 
@@ -294,3 +295,4 @@ def test_a_status_cannot_write_to_the_terminal(desk):
         return 'IDLE: quiet \\x1b[31m\\x07 red' in typist.page()
 
     desk.graph.until(shown)
+    desk.graph.until(lambda: 'No wrist_status: no resolver is heard here.' in typist.page())

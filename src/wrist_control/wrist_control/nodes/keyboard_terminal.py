@@ -35,7 +35,8 @@ class Terminal:
     def __init__(self) -> None:
         """Touch nothing yet."""
         self.gone = False
-        self._found: list[Any] | None = None
+        self._found: list[Any] = []
+        self._is_entered = False
         self._shown = ''
         self._log: BinaryIO | None = None
         self._stderr = ERR
@@ -51,21 +52,24 @@ class Terminal:
                 'keyboard needs a terminal to read keys from and to show them in; start it in '
                 'one, and neither from a pipe nor from a launch file.'
             )
-        if self._found is None:
+        if not self._found:
             self._found = termios.tcgetattr(IN)
-            self._keep_log()
+        # Whoever is in the background is stopped here, before anything is written.
         termios.tcsetattr(IN, termios.TCSAFLUSH, _every_key(self._found))
         self._shown = ''
-        _write(ENTER)
+        if not self._is_entered:
+            self._is_entered = True
+            self._keep_log()
+            _write(ENTER)
 
     def leave(self) -> None:
         """Put the terminal back as it was; nothing happens where it was not entered."""
-        if self._found is None:
+        if not self._is_entered:
             return
-        found, self._found = self._found, None
+        self._is_entered = False
         with contextlib.suppress(OSError, termios.error):  # it may be gone
             _write(LEAVE)
-            termios.tcsetattr(IN, termios.TCSAFLUSH, found)
+            termios.tcsetattr(IN, termios.TCSAFLUSH, self._found)
         self._tell_log()
 
     def read(self) -> str:
