@@ -53,7 +53,10 @@ LAST_WORDS = Duration(seconds=0.5)
 
 
 class Keyboard(GuardedNode):
-    """Publishes `cmd_vel` while a key of its terminal repeats, and shows `wrist_status`."""
+    """Publishes `cmd_vel` while a key of its terminal repeats, and shows `wrist_status`.
+
+    Keys: w s pitch, a d roll, q e yaw; + - speed; space stops, g goes on after it; Ctrl-C ends.
+    """
 
     def __init__(self, **node_options: Any) -> None:
         """Declare the parameters; the terminal is left alone.
