@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from wrist_control.errors import InvalidValueError
 from wrist_control.operating.keys import (
     ENABLE,
     LEASE,
@@ -132,4 +133,10 @@ def test_the_speed_is_changed_by_keys_within_its_bounds():
         held.take('_', 0.0)
     assert held.speed == pytest.approx(SLOWEST)
     assert held.rates(0.0) is None
-    assert Keys(5.0, MOST).speed == MOST
+
+
+def test_a_start_faster_than_it_may_be_is_refused():
+    with pytest.raises(
+        InvalidValueError, match='speed is 5 rad/s; valid is at most max_speed, 1 '
+    ):
+        Keys(5.0, MOST)

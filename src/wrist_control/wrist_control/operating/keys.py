@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 
+from wrist_control.errors import InvalidValueError
 from wrist_control.operating.maneuvers import ZERO_RATES
 from wrist_control.rotations import Vector
 
@@ -38,8 +39,16 @@ class Keys:
     """
 
     def __init__(self, speed: float, most_speed: float) -> None:
-        """Start with no key held."""
-        self.speed = min(speed, most_speed)
+        """Start with no key held.
+
+        Raises:
+            InvalidValueError: It would be faster than it may be.
+        """
+        if speed > most_speed:
+            raise InvalidValueError(
+                f'speed is {speed:g} rad/s; valid is at most max_speed, {most_speed:g} rad/s.'
+            )
+        self.speed = speed
         self.most_speed = most_speed
         self._until: dict[str, float] = {}
         self._last: float | None = None
