@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from wrist_control.nodes.joint_simulator import JointSimulator
+from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
@@ -18,6 +19,7 @@ SECTIONS = {
     'Parameters of every resolver': (Resolver, 'three_gimbal'),
     'Parameters of stewart_forward_kinematics': (StewartForwardKinematics,),
     'Parameters of the operator': (Operator,),
+    'Parameters of the keyboard': (Keyboard,),
     'Parameters of the joint simulator': (JointSimulator,),
     'Parameters of the console': (Console,),
     'Parameters of the physics simulator': (PhysicsSimulator,),

@@ -16,6 +16,7 @@ PACKAGE = MANIFEST.findtext('name')
 NODES = [
     'console',
     'joint_simulator',
+    'keyboard',
     'operator',
     'physics_simulator',
     'stewart_forward_kinematics',

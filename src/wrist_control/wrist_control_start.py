@@ -23,8 +23,9 @@ def __getattr__(name: str) -> partial[None]:
 
 
 def _start(executable: str) -> None:
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: os._exit(0))
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # by nohup
+            signal.signal(number, lambda *_: os._exit(0))
     wrist = executable.removesuffix('_resolver')
     if wrist != executable:
         import_module(f'{NODES}.resolver').main(wrist)
