@@ -86,7 +86,7 @@ class Console:
         later = [one for one in self.statuses if one[0] > since + REST]
         assert len(later) > 5
         moving = [round(t - since, 2) for t, status in later if self.moves(t, status, 0.0)]
-        assert moving == [], 'it moved so many s after it was let go'
+        assert moving == [], f'it moved {moving} s after it was let go'
 
     def end(self, number=signal.SIGINT):
         """End it by a signal; return the exit code and what it said."""
@@ -144,13 +144,19 @@ class Browser:
             self.problems.append(message.text)
 
     def signal(self, number):
-        """Send a signal to all of its processes."""
+        """Send a signal to all of its processes; the first has the mark, others came of it."""
+        parents, own = {}, set()
         for folder in Path('/proc').glob('[0-9]*'):
             try:
+                parents[int(folder.name)] = int((folder / 'stat').read_text().split()[-49])
                 if self._mark in (folder / 'environ').read_bytes().split(b'\0'):
-                    os.kill(int(folder.name), number)
+                    own.add(int(folder.name))
             except OSError:
                 continue  # it has ended, or is somebody else's
+        while more := {child for child, parent in parents.items() if parent in own} - own:
+            own |= more
+        for process in own:
+            os.kill(process, number)
 
     def close(self):
         self._browser.close()

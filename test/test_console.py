@@ -164,6 +164,9 @@ def test_a_limit_and_the_speed_are_set_from_the_page(start, browser):
         console, lambda: page.keyboard.down('w'), lambda: page.keyboard.up('w')
     )
     assert rates[1] == pytest.approx(math.radians(1.0), abs=1e-6)
+    page.get_by_label('Wrist', exact=True).click()
+    page.get_by_role('option', name='four_gimbal', exact=True).click()
+    page.locator('.card .figures').get_by_text('FourGimbal').wait_for()
     drag(page, speed, 0.98)
     rates = held_until_moving(
         console, lambda: page.keyboard.down('w'), lambda: page.keyboard.up('w')

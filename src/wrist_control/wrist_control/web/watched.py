@@ -29,6 +29,7 @@ from wrist_control.web.samples import OffPath, Sample
 from wrist_control.wrists import Wrist
 from wrist_interfaces.msg import WristStatus
 
+NOT_THERE = 'No resolver listens here yet: start one, or wait for it, and try again.'
 # A resolver that has said nothing for so long, s, is not there.
 SILENCE = 1.0
 # How often the resolver is looked for, and asked again for its limits, s.
@@ -73,6 +74,7 @@ class WatchedWrist:
         self._clients: dict[str, Client] = {}
         self._count = 0
         self.said: tuple[int, bool, str] = (0, True, '')
+        self._share: float | None = None
         self.lose()
         node.create_timer(LOOKS_EVERY, self._look)
 
@@ -84,6 +86,7 @@ class WatchedWrist:
         self._resolver = ''
         self._values: dict[str, Any] = {}
         self._asked = 0.0
+        self._wanted_share = self._share  # what a page has set holds for whoever comes next
         self.wrist: Wrist | None = None
         self.rate_ceilings: tuple[float, ...] = ()
         self.status: WristStatus | None = None
@@ -105,15 +108,26 @@ class WatchedWrist:
 
     def enable(self) -> None:
         """Ask the resolver to go on."""
-        self._ask(SetBool, '~/enable', SetBool.Request(data=True), self._on_answer)
+        if not self._ask(SetBool, '~/enable', SetBool.Request(data=True), self._on_answer):
+            self._tell(False, NOT_THERE)
 
     def reset(self) -> None:
         """Ask the resolver to go back to where it began."""
-        self._ask(Trigger, '~/reset', Trigger.Request(), self._on_answer)
+        if not self._ask(Trigger, '~/reset', Trigger.Request(), self._on_answer):
+            self._tell(False, NOT_THERE)
 
     def limit_rates(self, share: float) -> None:
-        """Ask the resolver to hold its joints to a share of the rates that it was found with."""
-        limits = [share * ceiling for ceiling in self.rate_ceilings]
+        """Ask the resolver to hold its joints to a share of the rates that it was found with.
+
+        Until it has answered it is asked again and again: a limit shall not be lost on the way.
+        """
+        self._share = self._wanted_share = share
+        self._ask_for_limits()
+
+    def _ask_for_limits(self) -> None:
+        if self._wanted_share is None or not self.rate_ceilings:
+            return
+        limits = [self._wanted_share * ceiling for ceiling in self.rate_ceilings]
         limit = Parameter('joint_rate_limits', Parameter.Type.DOUBLE_ARRAY, limits)
         request = SetParameters.Request(parameters=[limit.to_parameter_msg()])
         self._ask(SetParameters, '~/set_parameters', request, self._on_set)
@@ -128,15 +142,15 @@ class WatchedWrist:
         if self._resolver not in names:
             self.lose()
             self._resolver = names[0] if names else ''
+        self._ask_for_limits()
         is_due = self._resolver and now - self._asked > ASKS_EVERY
         listing = ListParameters, '~/list_parameters', ListParameters.Request(), self._on_list
         if is_due and self._ask(*listing):
             self._asked = now
 
     def _ask(self, kind: Any, service: str, request: Any, answer: Callable[[Any], None]) -> bool:
-        """Ask the resolver, if it listens already; whatever comes of it, `answer` is told."""
+        """Ask the resolver something; return whether it listens, and will be heard by `answer`."""
         if not self._resolver:
-            self._tell(False, 'No resolver is running here: start one, or wait for it.')
             return False
         name = service.replace('~', self._resolver)
         if name not in self._clients:
@@ -158,7 +172,7 @@ class WatchedWrist:
         self._tell(answer.success, answer.message)
 
     def _on_set(self, answer: SetParameters.Response) -> None:
-        self._asked = 0.0
+        self._asked, self._wanted_share = 0.0, None
         (result,) = answer.results
         if not result.successful:
             self._tell(False, result.reason)
