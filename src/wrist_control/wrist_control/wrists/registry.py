@@ -15,3 +15,6 @@ WRISTS = {
     'five_bar': 'FiveBar',
     'stewart': 'Stewart',
 }
+
+# Those that nobody can make without a description of the robot that has them.
+DESCRIBED = {'urdf': 'Urdf'}

@@ -1,0 +1,343 @@
+"""A robot description in URDF, read as far as a wrist needs it: the joints on the way to a link.
+
+Read by Python's own XML parser, without a document type: nothing in it can grow or be fetched.
+What hangs elsewhere in the robot, and what its links look like, is not looked at.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple, NoReturn
+from xml.etree import ElementTree
+from xml.etree.ElementTree import Element
+
+from wrist_control.errors import InvalidValueError
+from wrist_control.rotations import (
+    IDENTITY,
+    Pose,
+    Vector,
+    about_x,
+    about_y,
+    about_z,
+    placed,
+    product,
+    to_forearm,
+)
+from wrist_control.wrists.joint import Joint
+
+# Descriptions of whole humanoids are below 1 MB.
+LARGEST = 16_000_000
+# So many names are told of those that there are.
+TOLD = 12
+TURNING, MOVING = ('revolute', 'continuous'), ('prismatic', 'planar', 'floating')
+
+
+class DrivenJoint(NamedTuple):
+    """A joint of a chain, while all of them are at 0.
+
+    Attributes:
+        joint: Its name and its limits.
+        origin: Where it is, axes of the link that carries the first one, m.
+        axis: Unit vector that it turns about, the same axes.
+    """
+
+    joint: Joint
+    origin: Vector
+    axis: Vector
+
+
+class Chain(NamedTuple):
+    """The joints that turn a link, outermost first.
+
+    Attributes:
+        driven: The joints.
+        tip: Where the link is while they are at 0, axes of the link that carries the first one.
+    """
+
+    driven: tuple[DrivenJoint, ...]
+    tip: Pose
+
+
+def text_of(description: str) -> str:
+    """Return the XML that is given, or that is in the file which is named.
+
+    Raises:
+        InvalidValueError: There is neither.
+    """
+    if not isinstance(description, str) or not description.strip():
+        raise InvalidValueError(
+            'There is no robot description; give the XML of a URDF, or the name of a file with it.'
+        )
+    if description.lstrip('\ufeff \t\r\n').startswith('<'):
+        return description.lstrip('\ufeff \t\r\n')
+    name = description.strip().removeprefix('file://')
+    try:
+        with open(name, 'rb') as file:
+            found = file.read(LARGEST + 1)
+        return found.decode('utf-8-sig').lstrip()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else 'it is no text in UTF-8'
+        raise InvalidValueError(
+            f'The robot description {name[:200]!r} cannot be read ({reason}); give the XML of a '
+            'URDF, or the name of a file with it.'
+        ) from error
+
+
+def serial_chain(text: str, tip: str, names: Sequence[str] = ()) -> Chain:
+    """Return the chain of joints that turn a link.
+
+    Args:
+        text: The description, XML.
+        tip: Name of the link that they turn.
+        names: Their names, outermost first; the last three that turn it when there are none.
+
+    Raises:
+        InvalidValueError: The description says nothing that can be used; the sentence says why.
+    """
+    way = _way_to(_robot(text), tip)
+    driven = _named(way, tip, names) if names else _last_three(way, tip)
+    return _chain(way[way.index(driven[0]) :], driven, tip)
+
+
+class _NoDocumentType(ElementTree.TreeBuilder):
+    def doctype(self, *_: object) -> NoReturn:
+        raise InvalidValueError(
+            'The robot description has a document type, which could name other files or grow '
+            'without end; take the line <!DOCTYPE ...> out.'
+        )
+
+
+def _robot(text: str) -> Element:
+    if len(text) > LARGEST:
+        raise InvalidValueError(
+            f'The robot description is longer than {LARGEST // 1_000_000} MB; give one without '
+            'what is no link and no joint.'
+        )
+    parser = ElementTree.XMLParser(target=_NoDocumentType())
+    try:
+        parser.feed(text)
+        root: Element = parser.close()
+    except (ElementTree.ParseError, ValueError) as error:
+        if isinstance(error, InvalidValueError):
+            raise
+        raise InvalidValueError(f'The robot description is not XML: {error}.') from error
+    if root.tag != 'robot':
+        raise InvalidValueError(
+            f'The robot description is no URDF: it begins with <{root.tag[:80]}>, not <robot>.'
+        )
+    if any('xacro' in str(element.tag) for element in root.iter()):
+        raise InvalidValueError(
+            'The robot description still has xacro in it; expand it first: xacro robot.urdf.xacro.'
+        )
+    return root
+
+
+def _way_to(robot: Element, tip: str) -> list[Element]:
+    """Return the joints from the robot's base to a link."""
+    above: dict[str, Element] = {}
+    for joint in robot.findall('joint'):
+        child = _link(joint, 'child')
+        if child in above:
+            raise InvalidValueError(
+                f'The link {child!r} is the child of two joints, {_name(above[child])!r} and '
+                f'{_name(joint)!r}; a URDF is a tree.'
+            )
+        above[child] = joint
+    links = [str(link.get('name')) for link in robot.findall('link')]
+    if tip not in links:
+        raise InvalidValueError(f'There is no link {tip!r} for the tip; {_valid(tip, links)}')
+    way: list[Element] = []
+    link = tip
+    while link in above:
+        if above[link] in way:
+            raise InvalidValueError(
+                f'The joints before {tip!r} go round in a circle by {_name(above[link])!r}; a '
+                'URDF is a tree.'
+            )
+        way.insert(0, above[link])
+        link = _link(above[link], 'parent')
+    return way
+
+
+def _last_three(way: list[Element], tip: str) -> list[Element]:
+    found = [joint for joint in way if _kind(joint) in TURNING and joint.find('mimic') is None]
+    if len(found) < 2:
+        raise InvalidValueError(
+            f'Before {tip!r} there are fewer than two joints that turn it '
+            f'({_list(map(_name, found)) or "none"}); choose a tip further out.'
+        )
+    return found[-3:]
+
+
+def _named(way: list[Element], tip: str, names: Sequence[str]) -> list[Element]:
+    known = {_name(joint): joint for joint in way}
+    for name in names:
+        if name not in known:
+            turning = [_name(joint) for joint in way if _kind(joint) in TURNING]
+            raise InvalidValueError(
+                f'There is no joint {name!r} before the tip {tip!r}; {_valid(name, turning)}'
+            )
+    found = [known[name] for name in names]
+    if not 2 <= len(found) <= 4 or len(set(names)) < len(names):
+        raise InvalidValueError(
+            f'A wrist has two to four joints, each named once; joints is {_list(names)}.'
+        )
+    in_order = [_name(joint) for joint in way if joint in found]
+    if in_order != [*names]:
+        raise InvalidValueError(
+            f'joints is {_list(names)}; outermost first it is {_list(in_order)}.'
+        )
+    for joint in found:
+        if _kind(joint) not in TURNING:
+            raise InvalidValueError(
+                f'The joint {_name(joint)!r} is {_kind(joint)}; those of a wrist are '
+                f'{" or ".join(TURNING)}.'
+            )
+    return found
+
+
+def _chain(way: list[Element], driven: list[Element], tip: str) -> Chain:
+    """Return the geometry of the way from the link that carries the first driven joint."""
+    found = []
+    at = Pose(IDENTITY)
+    for joint in way:
+        at = placed(at, _origin(joint))
+        if joint in driven:
+            axis = to_forearm(at.quaternion, _axis(joint))
+            found.append(DrivenJoint(_limited(joint), at.position, axis))
+        elif _kind(joint) != 'fixed':
+            raise InvalidValueError(_between(joint, driven[0], tip))
+    return Chain(tuple(found), at)
+
+
+def _between(joint: Element, first: Element, tip: str) -> str:
+    begin = f'Between {_name(first)!r} and the tip {tip!r} is {_name(joint)!r}, which '
+    mimic = joint.find('mimic')
+    if mimic is not None:
+        return (
+            f'{begin}moves with {mimic.get("joint")!r}; such a hand turns about no axis of its '
+            'own: choose joints and a tip without it between them.'
+        )
+    if _kind(joint) in TURNING:
+        return f'{begin}turns too; name it among the joints, or choose a tip before it.'
+    return f'{begin}is {_kind(joint)}; choose joints and a tip without it between them.'
+
+
+def _limited(joint: Element) -> Joint:
+    name, limit = _name(joint), joint.find('limit')
+    mimic = joint.find('mimic')
+    if mimic is not None:
+        raise InvalidValueError(
+            f'The joint {name!r} follows {mimic.get("joint")!r} and cannot be driven; name others.'
+        )
+    speed = math.inf if limit is None else _number(limit, 'velocity', math.inf, name)
+    if not speed > 0.0:
+        raise InvalidValueError(
+            f'The joint {name!r} has the velocity limit {speed:g} in its description; give there '
+            'how fast it can turn, rad/s.'
+        )
+    if _kind(joint) == 'continuous':
+        return Joint(name, rate_limit=speed)
+    lower, upper = (
+        max(_bounds(joint, 'lower', -math.inf)),
+        min(_bounds(joint, 'upper', math.inf)),
+    )
+    if limit is None or not lower < upper:
+        told = 'no limits' if limit is None else f'the limits {lower:g} to {upper:g}'
+        raise InvalidValueError(
+            f'The joint {name!r} has {told} in its description; give there how far it can turn, '
+            'rad, or call it continuous.'
+        )
+    return Joint(name, lower=lower, upper=upper, rate_limit=speed)
+
+
+def _bounds(joint: Element, which: str, otherwise: float) -> Iterable[float]:
+    """Return the limit of the joint, and of its controller where that has one."""
+    for tag, attribute, default in (
+        ('limit', which, 0.0),
+        ('safety_controller', f'soft_{which}_limit', otherwise),
+    ):
+        found = joint.find(tag)
+        yield otherwise if found is None else _number(found, attribute, default, _name(joint))
+
+
+def _origin(joint: Element) -> Pose:
+    origin = joint.find('origin')
+    if origin is None:
+        return Pose(IDENTITY)
+    roll, pitch, yaw = _vector(origin, 'rpy', (0.0, 0.0, 0.0), _name(joint))
+    turned = product(product(about_z(yaw), about_y(pitch)), about_x(roll))
+    return Pose(turned, _vector(origin, 'xyz', (0.0, 0.0, 0.0), _name(joint)))
+
+
+def _axis(joint: Element) -> Vector:
+    axis = joint.find('axis')
+    x, y, z = (
+        (1.0, 0.0, 0.0) if axis is None else _vector(axis, 'xyz', (1.0, 0.0, 0.0), _name(joint))
+    )
+    length = math.hypot(x, y, z)
+    if length < 1e-9:
+        raise InvalidValueError(f'The axis of the joint {_name(joint)!r} has no direction.')
+    return (x / length, y / length, z / length)
+
+
+def _vector(element: Element, attribute: str, otherwise: Vector, joint: str) -> Vector:
+    text = element.get(attribute)
+    if text is None:
+        return otherwise
+    numbers = [_finite(part) for part in text.split()]
+    if len(numbers) != 3 or None in numbers:
+        raise InvalidValueError(
+            f'{attribute} of the joint {joint!r} is {text[:80]!r}; valid are three numbers.'
+        )
+    x, y, z = (float(number or 0.0) for number in numbers)
+    return (x, y, z)
+
+
+def _number(element: Element, attribute: str, otherwise: float, joint: str) -> float:
+    text = element.get(attribute)
+    if text is None:
+        return otherwise
+    number = _finite(text)
+    if number is None:
+        raise InvalidValueError(
+            f'{attribute} of the joint {joint!r} is {text[:80]!r}; valid is a number.'
+        )
+    return number
+
+
+def _finite(text: str) -> float | None:
+    try:
+        number = float(text)
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _link(joint: Element, which: str) -> str:
+    found = joint.find(which)
+    name = None if found is None else found.get('link')
+    if name is None:
+        raise InvalidValueError(f'The joint {_name(joint)!r} has no {which} link.')
+    return name
+
+
+def _name(joint: Element) -> str:
+    return joint.get('name', '')
+
+
+def _kind(joint: Element) -> str:
+    return joint.get('type', '')
+
+
+def _valid(name: str, names: Sequence[str]) -> str:
+    near = difflib.get_close_matches(name, names, 1)
+    return f'did you mean {near[0]!r}?' if near else f'valid is one of {_list(names)}.'
+
+
+def _list(names: Iterable[str]) -> str:
+    every = [*names]
+    more = f' and {len(every) - TOLD} more' if len(every) > TOLD else ''
+    return ', '.join(name[:80] for name in every[:TOLD]) + more
