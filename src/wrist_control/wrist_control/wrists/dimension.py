@@ -56,11 +56,13 @@ class Text(NamedTuple):
     Attributes:
         description: What it is.
         parameter: What it is called as a parameter of a node.
+        example: One that is valid.
         names: It is a list of names.
     """
 
     description: str
     parameter: str
+    example: str = ''
     names: bool = False
 
 
@@ -81,9 +83,9 @@ def point_list(description: str) -> Sequence[float] | None:
     return of_the_class
 
 
-def text(description: str, parameter: str) -> str:
+def text(description: str, parameter: str, example: str) -> str:
     """Return a dataclass field for a `Text`; the arguments are its attributes."""
-    of_the_class: str = field(default='', metadata={KEY: Text(description, parameter)})
+    of_the_class: str = field(default='', metadata={KEY: Text(description, parameter, example)})
     return of_the_class
 
 

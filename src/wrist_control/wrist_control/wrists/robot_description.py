@@ -66,7 +66,7 @@ def text_of(description: str) -> str:
     Raises:
         InvalidValueError: There is neither.
     """
-    if not isinstance(description, str) or not description.strip():
+    if not description.strip():
         raise InvalidValueError(
             'There is no robot description; give the XML of a URDF, or the name of a file with it.'
         )

@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from wrist_control.errors import UnreachableError
+from wrist_control.errors import InvalidValueError, UnreachableError
 from wrist_control.rotations import (
     Pose,
     Quaternion,
@@ -42,6 +42,15 @@ TOLERANCE = 1e-6
 # ways are as good, and one is taken.
 SIDE = 1e-9
 
+# The smallest robot with a wrist: what a node is made of whose parameters are to be shown.
+EXAMPLE = (
+    '<robot name="example"><link name="mast"/><link name="yoke"/><link name="head"/>'
+    '<joint name="pan" type="continuous"><parent link="mast"/><child link="yoke"/>'
+    '<axis xyz="0 0 1"/></joint>'
+    '<joint name="tilt" type="continuous"><parent link="yoke"/><child link="head"/>'
+    '<axis xyz="0 1 0"/></joint></robot>'
+)
+
 chain_of = lru_cache(maxsize=16)(serial_chain)
 axes_of = lru_cache(maxsize=16)(SerialAxes)
 
@@ -59,8 +68,10 @@ class Urdf(Wrist):
     Choose it for the arm, the head or the hand that you have.
     """
 
-    description: str = text('XML of the robot, or a file with it', 'robot_description')
-    tip: str = text('Name of the link that is turned', 'tip_link')
+    description: str = text(
+        'XML of the robot, or the name of a file with it', 'robot_description', EXAMPLE
+    )
+    tip: str = text('Name of the link that is turned', 'tip_link', 'head')
     gain: float = dimension(
         0.8, 'gain K of the spare joint of four; above the fastest hand rate', 'rad/s', 0.001, 10.0
     )
@@ -87,13 +98,14 @@ class Urdf(Wrist):
 
     @cached_property
     def _axes(self) -> SerialAxes:
-        names = tuple(joint.name for joint in self._limited) or tuple(map(str, self.joints))
+        names = tuple(joint.name for joint in self._limited) or _names(self.joints)
         return axes_of(chain_of(self.description, self.tip, names))
 
     @property
     def _limited(self) -> tuple[Joint, ...]:
-        """The joints, if more than their names is given."""
-        return tuple(one for one in self.joints if isinstance(one, Joint))
+        """The joints, where more than their names is given."""
+        given: Sequence[object] = self.joints
+        return tuple(one for one in given if isinstance(one, Joint))
 
     @property
     def home(self) -> Positions:
@@ -235,6 +247,18 @@ class Urdf(Wrist):
         moves = [dot(spare, other) for other in (cross(b, c), cross(c, a), cross(a, b))]
         moves.insert(axes.spare, -dot(a, cross(b, c)))
         return law, share_of_space(self.joints, positions, moves, moves[axes.spare], law)
+
+
+def _names(given: object) -> tuple[str, ...]:
+    """Return the names of joints, as somebody gave them.
+
+    Raises:
+        InvalidValueError: They are no names.
+    """
+    names = tuple(given) if isinstance(given, Sequence) and not isinstance(given, str) else None
+    if names is None or not all(isinstance(name, str) for name in names):
+        raise InvalidValueError(f'joints is {given!r}; valid is a list of names, outermost first.')
+    return names
 
 
 def _vector(rates: Sequence[float]) -> Vector:
