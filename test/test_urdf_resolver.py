@@ -2,10 +2,11 @@
 
 import math
 import os
+import shlex
 import subprocess
 
 import pytest
-from geometry_msgs.msg import TwistStamped
+from geometry_msgs.msg import PoseStamped, TwistStamped
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
 from sensor_msgs.msg import JointState
@@ -18,6 +19,7 @@ from wrist_control.graph.processes import executable_file
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.resolver_settings import mechanism_specs
 from wrist_interfaces.msg import LimitAtWork, WristStatus
 
 from .documents import ROOT
@@ -96,33 +98,46 @@ def test_the_region_that_cannot_be_reached_is_named(graph):
 
 
 class Robot:
-    """A whole arm and a gripper: tells all of its joints, and moves those that it is told to."""
+    """A whole arm and a gripper: tells all of its joints, and turns the wrist's at velocities."""
 
     def __init__(self, graph):
         self.positions = {f'panda_joint{number}': 0.1 * number for number in range(1, 8)}
         self.positions |= dict.fromkeys(FINGERS, 0.02) | {'panda_joint6': 1.5}
-        self.publisher = graph.outside.create_publisher(JointState, 'joint_states', 10)
-        graph.outside.create_subscription(JointState, 'joint_command', self._move, 10)
+        self._publisher = graph.outside.create_publisher(JointState, 'joint_states', 10)
         self._node = graph.outside
+        topic = '/wrist_velocity_controller/commands'
+        graph.outside.create_subscription(Float64MultiArray, topic, self._move, 100)
         graph.outside.create_timer(0.02, self._tell)
 
     def _move(self, command):
-        self.positions |= dict(zip(command.name, command.position, strict=True))
+        """Go on for a hundredth of a second: the resolver sends as many in a second."""
+        for number, velocity in zip((5, 6, 7), command.data, strict=True):
+            self.positions[f'panda_joint{number}'] += 0.01 * velocity
 
     def _tell(self):
         message = JointState(name=list(self.positions), position=list(self.positions.values()))
         message.header.stamp = self._node.get_clock().now().to_msg()
-        self.publisher.publish(message)
+        self._publisher.publish(message)
 
 
-def test_a_whole_robot_may_tell_its_joints_and_those_of_the_wrist_alone_are_driven(graph):
+def test_beside_an_arm_it_hears_what_servo_would_and_drives_the_wrist_alone(graph):
+    """As docs/from-urdf.md has it: other topics, the links' own names, joints of a whole robot."""
     robot = Robot(graph)
     before = dict(robot.positions)
-    graph.start(Resolver, 'urdf', **PANDA, require_joint_states=True, command_timeout=5.0)
-    velocities = graph.listen(Float64MultiArray, 'joint_velocity_command')
+    page = (ROOT / 'docs' / 'from-urdf.md').read_text()
+    (line,) = [one for one in page.splitlines() if 'delta_twist_cmds' in one and './env' in one]
+    node = Resolver(
+        'urdf',
+        context=graph.context,
+        cli_args=[*shlex.split(line)[2:], '-p', 'command_timeout:=5.0'],
+        use_global_arguments=False,
+    )
+    graph.add(node)
     statuses = graph.listen(WristStatus, 'wrist_status')
-    publisher = graph.publisher(TwistStamped, 'cmd_vel')
+    poses = graph.listen(PoseStamped, 'hand_pose')
+    publisher = graph.publisher(TwistStamped, '/servo_node/delta_twist_cmds')
     message = TwistStamped()
+    message.header.frame_id = 'panda_link8'
     message.twist.angular.z = 0.3
 
     def turned():
@@ -132,10 +147,12 @@ def test_a_whole_robot_may_tell_its_joints_and_those_of_the_wrist_alone_are_driv
         return robot.positions['panda_joint7'] > before['panda_joint7'] + 0.1
 
     graph.until(turned)
-    moved = [name for name, position in robot.positions.items() if position != before[name]]
-    assert set(moved) <= {'panda_joint5', 'panda_joint6', 'panda_joint7'}
-    assert len(velocities[-1].data) == 3
+    ways = {name: abs(robot.positions[name] - position) for name, position in before.items()}
+    assert {name for name, way in ways.items() if way} <= {f'panda_joint{n}' for n in (5, 6, 7)}
+    assert [name for name, way in ways.items() if way > 1e-6] == ['panda_joint7']
     assert statuses[-1].state in (WristStatus.TRACKING, WristStatus.SCALED)
+    assert statuses[-1].header.frame_id == 'panda_link8'
+    assert poses[-1].header.frame_id == 'panda_link4'
 
 
 def test_the_resolver_of_any_wrist_takes_a_urdf_too_and_joints_by_name(graph):
@@ -209,6 +226,12 @@ def test_limits_below_those_of_the_description_may_change_while_it_runs(graph):
     assert (
         'joint_rate_limits is 3 for panda_joint6; while the node runs valid is' in refused.reason
     )
+
+
+def test_every_parameter_of_the_description_is_in_the_documents():
+    table = (ROOT / 'docs' / 'interfaces.md').read_text().partition('Parameters of urdf_resolver')
+    for spec in mechanism_specs('urdf'):
+        assert f'\n| `{spec.name}` |' in table[2], spec.name
 
 
 def said(graph, *arguments):
