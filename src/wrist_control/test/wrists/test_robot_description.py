@@ -50,12 +50,6 @@ def test_an_axis_that_is_not_said_is_x_and_an_origin_that_is_not_said_is_none():
     assert chain.tip.position == (0.0, 0.0, 0.0)
 
 
-def test_limits_are_those_of_the_joint_and_of_its_controller():
-    inside = f'{ABOUT_Z}{LIMIT}<safety_controller soft_lower_limit="-0.5" soft_upper_limit="2.5"/>'
-    chain = serial_chain(three(one=joint('one', 'a', 'b', 'revolute', inside)), 'd')
-    assert chain.driven[0].joint[2:5] == (-0.5, 2.0, 3.0)
-
-
 def test_the_joint_that_others_mimic_is_like_any_other_and_one_before_the_wrist_does_no_harm():
     follower = joint('finger', 'd', 'e', inside='<mimic joint="three"/>')
     before = joint('rail', 'f', 'a', 'prismatic', LIMIT)

@@ -7,31 +7,28 @@ What hangs elsewhere in the robot, and what its links look like, is not looked a
 from __future__ import annotations
 
 import difflib
-import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple, NoReturn
 from xml.etree import ElementTree
 from xml.etree.ElementTree import Element
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.rotations import (
-    IDENTITY,
-    Pose,
-    Vector,
-    about_x,
-    about_y,
-    about_z,
-    placed,
-    product,
-    to_forearm,
-)
+from wrist_control.rotations import IDENTITY, Pose, Vector, placed, to_forearm
 from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.urdf_joint import (
+    axis_of,
+    kind_of,
+    limited_joint,
+    link_of,
+    name_of,
+    origin_of,
+)
 
 # Descriptions of whole humanoids are below 1 MB.
 LARGEST = 16_000_000
 # So many names are told of those that there are.
 TOLD = 12
-TURNING, MOVING = ('revolute', 'continuous'), ('prismatic', 'planar', 'floating')
+TURNING = ('revolute', 'continuous')
 
 
 class DrivenJoint(NamedTuple):
@@ -138,11 +135,11 @@ def _way_to(robot: Element, tip: str) -> list[Element]:
     """Return the joints from the robot's base to a link."""
     above: dict[str, Element] = {}
     for joint in robot.findall('joint'):
-        child = _link(joint, 'child')
+        child = link_of(joint, 'child')
         if child in above:
             raise InvalidValueError(
-                f'The link {child!r} is the child of two joints, {_name(above[child])!r} and '
-                f'{_name(joint)!r}; a URDF is a tree.'
+                f'The link {child!r} is the child of two joints, {name_of(above[child])!r} and '
+                f'{name_of(joint)!r}; a URDF is a tree.'
             )
         above[child] = joint
     links = [str(link.get('name')) for link in robot.findall('link')]
@@ -153,29 +150,29 @@ def _way_to(robot: Element, tip: str) -> list[Element]:
     while link in above:
         if above[link] in way:
             raise InvalidValueError(
-                f'The joints before {tip!r} go round in a circle by {_name(above[link])!r}; a '
+                f'The joints before {tip!r} go round in a circle by {name_of(above[link])!r}; a '
                 'URDF is a tree.'
             )
         way.insert(0, above[link])
-        link = _link(above[link], 'parent')
+        link = link_of(above[link], 'parent')
     return way
 
 
 def _last_three(way: list[Element], tip: str) -> list[Element]:
-    found = [joint for joint in way if _kind(joint) in TURNING and joint.find('mimic') is None]
+    found = [joint for joint in way if kind_of(joint) in TURNING and joint.find('mimic') is None]
     if len(found) < 2:
         raise InvalidValueError(
             f'Before {tip!r} there are fewer than two joints that turn it '
-            f'({_list(map(_name, found)) or "none"}); choose a tip further out.'
+            f'({_list(map(name_of, found)) or "none"}); choose a tip further out.'
         )
     return found[-3:]
 
 
 def _named(way: list[Element], tip: str, names: Sequence[str]) -> list[Element]:
-    known = {_name(joint): joint for joint in way}
+    known = {name_of(joint): joint for joint in way}
     for name in names:
         if name not in known:
-            turning = [_name(joint) for joint in way if _kind(joint) in TURNING]
+            turning = [name_of(joint) for joint in way if kind_of(joint) in TURNING]
             raise InvalidValueError(
                 f'There is no joint {name!r} before the tip {tip!r}; {_valid(name, turning)}'
             )
@@ -184,15 +181,15 @@ def _named(way: list[Element], tip: str, names: Sequence[str]) -> list[Element]:
         raise InvalidValueError(
             f'A wrist has two to four joints, each named once; joints is {_list(names)}.'
         )
-    in_order = [_name(joint) for joint in way if joint in found]
+    in_order = [name_of(joint) for joint in way if joint in found]
     if in_order != [*names]:
         raise InvalidValueError(
             f'joints is {_list(names)}; outermost first it is {_list(in_order)}.'
         )
     for joint in found:
-        if _kind(joint) not in TURNING:
+        if kind_of(joint) not in TURNING:
             raise InvalidValueError(
-                f'The joint {_name(joint)!r} is {_kind(joint)}; those of a wrist are '
+                f'The joint {name_of(joint)!r} is {kind_of(joint)}; those of a wrist are '
                 f'{" or ".join(TURNING)}.'
             )
     return found
@@ -203,133 +200,26 @@ def _chain(way: list[Element], driven: list[Element], tip: str) -> Chain:
     found = []
     at = Pose(IDENTITY)
     for joint in way:
-        at = placed(at, _origin(joint))
+        at = placed(at, origin_of(joint))
         if joint in driven:
-            axis = to_forearm(at.quaternion, _axis(joint))
-            found.append(DrivenJoint(_limited(joint), at.position, axis))
-        elif _kind(joint) != 'fixed':
+            axis = to_forearm(at.quaternion, axis_of(joint))
+            found.append(DrivenJoint(limited_joint(joint), at.position, axis))
+        elif kind_of(joint) != 'fixed':
             raise InvalidValueError(_between(joint, driven[0], tip))
     return Chain(tuple(found), at)
 
 
 def _between(joint: Element, first: Element, tip: str) -> str:
-    begin = f'Between {_name(first)!r} and the tip {tip!r} is {_name(joint)!r}, which '
+    begin = f'Between {name_of(first)!r} and the tip {tip!r} is {name_of(joint)!r}, which '
     mimic = joint.find('mimic')
     if mimic is not None:
         return (
             f'{begin}moves with {mimic.get("joint")!r}; such a hand turns about no axis of its '
             'own: choose joints and a tip without it between them.'
         )
-    if _kind(joint) in TURNING:
+    if kind_of(joint) in TURNING:
         return f'{begin}turns too; name it among the joints, or choose a tip before it.'
-    return f'{begin}is {_kind(joint)}; choose joints and a tip without it between them.'
-
-
-def _limited(joint: Element) -> Joint:
-    name, limit = _name(joint), joint.find('limit')
-    mimic = joint.find('mimic')
-    if mimic is not None:
-        raise InvalidValueError(
-            f'The joint {name!r} follows {mimic.get("joint")!r} and cannot be driven; name others.'
-        )
-    speed = math.inf if limit is None else _number(limit, 'velocity', math.inf, name)
-    if not speed > 0.0:
-        raise InvalidValueError(
-            f'The joint {name!r} has the velocity limit {speed:g} in its description; give there '
-            'how fast it can turn, rad/s.'
-        )
-    if _kind(joint) == 'continuous':
-        return Joint(name, rate_limit=speed)
-    lower, upper = (
-        max(_bounds(joint, 'lower', -math.inf)),
-        min(_bounds(joint, 'upper', math.inf)),
-    )
-    if limit is None or not lower < upper:
-        told = 'no limits' if limit is None else f'the limits {lower:g} to {upper:g}'
-        raise InvalidValueError(
-            f'The joint {name!r} has {told} in its description; give there how far it can turn, '
-            'rad, or call it continuous.'
-        )
-    return Joint(name, lower=lower, upper=upper, rate_limit=speed)
-
-
-def _bounds(joint: Element, which: str, otherwise: float) -> Iterable[float]:
-    """Return the limit of the joint, and of its controller where that has one."""
-    for tag, attribute, default in (
-        ('limit', which, 0.0),
-        ('safety_controller', f'soft_{which}_limit', otherwise),
-    ):
-        found = joint.find(tag)
-        yield otherwise if found is None else _number(found, attribute, default, _name(joint))
-
-
-def _origin(joint: Element) -> Pose:
-    origin = joint.find('origin')
-    if origin is None:
-        return Pose(IDENTITY)
-    roll, pitch, yaw = _vector(origin, 'rpy', (0.0, 0.0, 0.0), _name(joint))
-    turned = product(product(about_z(yaw), about_y(pitch)), about_x(roll))
-    return Pose(turned, _vector(origin, 'xyz', (0.0, 0.0, 0.0), _name(joint)))
-
-
-def _axis(joint: Element) -> Vector:
-    axis = joint.find('axis')
-    x, y, z = (
-        (1.0, 0.0, 0.0) if axis is None else _vector(axis, 'xyz', (1.0, 0.0, 0.0), _name(joint))
-    )
-    length = math.hypot(x, y, z)
-    if length < 1e-9:
-        raise InvalidValueError(f'The axis of the joint {_name(joint)!r} has no direction.')
-    return (x / length, y / length, z / length)
-
-
-def _vector(element: Element, attribute: str, otherwise: Vector, joint: str) -> Vector:
-    text = element.get(attribute)
-    if text is None:
-        return otherwise
-    numbers = [_finite(part) for part in text.split()]
-    if len(numbers) != 3 or None in numbers:
-        raise InvalidValueError(
-            f'{attribute} of the joint {joint!r} is {text[:80]!r}; valid are three numbers.'
-        )
-    x, y, z = (float(number or 0.0) for number in numbers)
-    return (x, y, z)
-
-
-def _number(element: Element, attribute: str, otherwise: float, joint: str) -> float:
-    text = element.get(attribute)
-    if text is None:
-        return otherwise
-    number = _finite(text)
-    if number is None:
-        raise InvalidValueError(
-            f'{attribute} of the joint {joint!r} is {text[:80]!r}; valid is a number.'
-        )
-    return number
-
-
-def _finite(text: str) -> float | None:
-    try:
-        number = float(text)
-    except ValueError:
-        return None
-    return number if math.isfinite(number) else None
-
-
-def _link(joint: Element, which: str) -> str:
-    found = joint.find(which)
-    name = None if found is None else found.get('link')
-    if name is None:
-        raise InvalidValueError(f'The joint {_name(joint)!r} has no {which} link.')
-    return name
-
-
-def _name(joint: Element) -> str:
-    return joint.get('name', '')
-
-
-def _kind(joint: Element) -> str:
-    return joint.get('type', '')
+    return f'{begin}is {kind_of(joint)}; choose joints and a tip without it between them.'
 
 
 def _valid(name: str, names: Sequence[str]) -> str:
