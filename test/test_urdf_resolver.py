@@ -6,6 +6,7 @@ import shlex
 import subprocess
 
 import pytest
+import yaml
 from geometry_msgs.msg import PoseStamped, TwistStamped
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParametersAtomically
@@ -172,6 +173,20 @@ def test_the_resolver_of_any_wrist_takes_a_urdf_too_and_joints_by_name(graph):
     assert {'second_link', 'joint third'} <= {one.ns for one in markers[-1].markers}
     names = [one.child_frame_id for one in frames[-1].transforms]
     assert names == ['second_link', 'third_link', 'hand']
+
+
+def test_what_a_dump_has_of_it_starts_it_again(graph, tmp_path):
+    """The whole XML, and an empty list of joints, as `ros2 param dump` writes them."""
+    text = (URDF / 'panda.urdf').read_text()
+    given = {**PANDA, 'robot_description': text, 'joints': []}
+    file = tmp_path / 'dump.yaml'
+    file.write_text(yaml.dump({'/urdf_resolver': {'ros__parameters': given}}))
+    arguments = ['--ros-args', '--params-file', str(file)]
+    node = Resolver('urdf', context=graph.context, cli_args=arguments, use_global_arguments=False)
+    graph.add(node)
+    assert node.get_parameter('robot_description').value == text
+    assert list(node.get_parameter('joints').value) == []
+    assert list(node.get_parameter('joint_rate_limits').value) == [2.61, 2.61, 2.61]
 
 
 @pytest.mark.parametrize(

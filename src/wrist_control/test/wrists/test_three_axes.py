@@ -152,6 +152,19 @@ def test_a_seam_is_passed_with_the_hand_no_further_off_than_it_is_wide(off):
         assert apart(turned(axes, found), aim) < 3.0 * off + 1e-9
 
 
+def test_what_is_wider_than_a_seam_is_an_end():
+    axes = bent(0.5 * math.pi - 1.05 * SEAM, 0.5 * math.pi)
+    assert [name for name, _ in axes.distances(0.0)] == [ALONG, AGAINST]
+
+
+@pytest.mark.parametrize('beside', [1e-3, 1e-5, 1e-7])
+def test_close_to_lock_the_turns_are_still_those_of_the_rotation(beside):
+    for axes in (ThreeAxes(X, Y, X), ThreeAxes(Z, Y, X), bent(1.0, 1.0, 0.3)):
+        rotation = turned(axes, (0.4, axes.lock + beside, 0.3))
+        found = axes.turns(rotation, (0.5, axes.lock, 0.2))
+        assert apart(turned(axes, found), rotation) < 1e-14
+
+
 def test_the_distance_to_an_end_is_0_there_and_1_at_the_other():
     axes = bent(math.radians(90), math.radians(50))
     assert axes.distances(axes.lock) == [(ALONG, 0.0), (AGAINST, 1.0)]

@@ -181,6 +181,13 @@ def test_it_lives_on_when_its_file_is_gone(tmp_path):
     assert narrow.forward((0.1, 0.2, 0.3)) == wrist.forward((0.1, 0.2, 0.3))
 
 
+def test_a_path_names_a_file_and_a_printed_wrist_is_short():
+    wrist = make_wrist('urdf', description=FOLDER / 'panda.urdf', tip='panda_link8')
+    assert wrist == shipped('panda')
+    assert 'panda_joint7' in repr(wrist)
+    assert '<robot' not in repr(wrist)
+
+
 def test_it_is_among_the_wrists_and_flies_by_its_name():
     assert 'urdf' in wrist_names()
     description = (FOLDER / 'panda.urdf').read_text()

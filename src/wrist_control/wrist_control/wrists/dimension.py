@@ -85,7 +85,9 @@ def point_list(description: str) -> Sequence[float] | None:
 
 def text(description: str, parameter: str, example: str) -> str:
     """Return a dataclass field for a `Text`; the arguments are its attributes."""
-    of_the_class: str = field(default='', metadata={KEY: Text(description, parameter, example)})
+    facts = Text(description, parameter, example)
+    # Whoever prints a wrist does not want to read the whole of it.
+    of_the_class: str = field(default='', repr=False, metadata={KEY: facts})
     return of_the_class
 
 

@@ -85,7 +85,7 @@ class Urdf(Wrist):
         Raises:
             InvalidValueError: It describes no wrist; the sentence says why.
         """
-        object.__setattr__(self, 'description', text_of(self.description))
+        object.__setattr__(self, 'description', text_of(str(self.description)))
         axes = self._axes
         settled = {
             'joints': self._limited or axes.joints,
