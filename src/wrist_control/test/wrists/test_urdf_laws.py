@@ -10,16 +10,11 @@ from .robots import FOLDER, SHIPPED, make_wrist, random_robot, shipped, wrist_of
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 UR5E = (FOLDER / 'ur5e.urdf').read_text()
 ROBOTS = {
-    # As many descriptions have it, and as calibrations do.
-    'ur5e rounded': lambda: make_wrist(
-        'urdf', description=UR5E.replace('1.570796327', '1.5708'), tip='tool0'
-    ),
     'ur5e calibrated': lambda: make_wrist(
         'urdf', description=UR5E.replace('"1.570796327', '"1.5715'), tip='tool0'
     ),
     'camera that looks down': lambda: wrist_of((Z, Y), tip_rpy=(0.0, 0.3, 0.0)),
     'pointer with oblique axes': lambda: wrist_of((Z, (0.3, 1.0, 0.2)), tip_rpy=(0.1, 0.2, 0.3)),
-    'oblique axes': lambda: wrist_of((Z, (0.3, 1.0, 0.0), (1.0, 0.2, 0.3))),
     'first joint spare': lambda: wrist_of(((0.5, 0.5, 0.5), Z, Y, X)),
     'any four': lambda: random_robot(np.random.default_rng(11), 4),
 }
