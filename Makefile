@@ -19,14 +19,14 @@ setup-%:
 	@scripts/setup $*
 
 .PHONY: test
-test: setup-test setup-docs setup-physics  ## check the code with ruff and mypy, then run every test
+test: setup-test setup-docs setup-physics setup-console setup-record  ## check the code with ruff and mypy, then run every test
 	@lint=0; ./env python3 scripts/lint.py || lint=$$?; \
 	ROS_PYTHON_CHECK_FIELDS=1 ./env python3 -m pytest -n 2 || exit $$?; \
 	[ $$lint -eq 0 ] || echo 'The tests pass, but ruff or mypy found something: see above.'; \
 	exit $$lint
 
 .PHONY: coverage
-coverage: setup-test setup-docs setup-physics  ## run every test, and show in out/coverage/ which lines none of them runs
+coverage: setup-test setup-docs setup-physics setup-console setup-record  ## run every test, and show in out/coverage/ which lines none of them runs
 	@./env python3 -m coverage erase; tests=0; \
 	./env python3 -m coverage run -m pytest -n 2 || tests=$$?; \
 	./env python3 -m coverage combine --quiet && ./env python3 -m coverage report && \
@@ -45,7 +45,7 @@ demo: setup  ## fly Barker's basic test maneuver, with figures in out/
 	@./env python3 -m wrist_control.demo
 
 .PHONY: bench
-bench: setup-test setup-physics  ## measure how fast it is, as ratios within one run
+bench: setup-test setup-physics setup-console  ## measure how fast it is, as ratios within one run
 	@for script in bench/bench_*.py; do ./env python3 "$$script" || exit $$?; done
 
 .PHONY: mutants
@@ -75,6 +75,10 @@ judge: setup-physics  ## let MuJoCo move every wrist, and compare it with our ki
 .PHONY: gallery
 gallery: setup  ## draw every wrist as its mechanism, still and in motion
 	@./env python3 -m wrist_control.studies.gallery
+
+.PHONY: console
+console: setup-console  ## hold the stick of a simulated wrist in a web page
+	@./env console --ros-args -p start:=three_gimbal
 
 .PHONY: docs
 docs: setup-docs  ## write docs/wrists.md from the code, and build the site in out/site

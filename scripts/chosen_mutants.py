@@ -31,7 +31,7 @@ SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
 SEARCH, FEEDBACK = 'resolving/search.py', 'resolving/feedback.py'
 WINDOWS, FEASIBLE = 'resolving/rate_windows.py', 'resolving/feasible.py'
 EASING = 'resolving/easing.py'
-JOYSTICK = 'operating/joystick.py'
+JOYSTICK, KEYS = 'operating/joystick.py', 'operating/keys.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 SPARE, AXES, URDF = 'wrists/spare_joint.py', 'wrists/three_axes.py', 'wrists/urdf.py'
 CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
@@ -180,7 +180,7 @@ CHOSEN = tuple(
         (OPERATOR, 'and not self._is_heard()', 'and False', 'a maneuver begins unheard'),
         (
             JOYSTICK,
-            'if self.enable_button >= 0 and not buttons[self.enable_button]:',
+            'if not self.is_enabled(buttons):',
             'if False:',
             'the hand moves without the dead-man button',
         ),
@@ -191,6 +191,9 @@ CHOSEN = tuple(
             'a stick at rest creeps',
         ),
         (JOYSTICK, ' or receipt_time - self._heard > self.timeout', '', 'a lost stick drives on'),
+        (JOYSTICK, 'self._counts = at_rest or', 'self._counts = True or', 'a stuck stick drives'),
+        (KEYS, 'now + LEASE', 'now + 10.0 * LEASE', 'a key that was let go drives on'),
+        (KEYS, 'len(keys) > MOST_AT_ONCE', 'False', 'keys that were held up on their way count'),
         (
             JOYSTICK,
             'self._rates, self._heard = ZERO_RATES, receipt_time',

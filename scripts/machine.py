@@ -41,6 +41,7 @@ APT_OF_MODULE = {
     'visualization_msgs': 'ros-jazzy-common-interfaces',
 }
 APT_OF_EXTRA = {
+    'console': {'nicegui': FROM_PIP},
     'docs': {
         'furo': 'furo',
         'latex2mathml': FROM_PIP,
@@ -48,6 +49,7 @@ APT_OF_EXTRA = {
         'sphinx': 'python3-sphinx',
     },
     'physics': {'mujoco': FROM_PIP},
+    'record': {'mcap': FROM_PIP, 'rosbags': FROM_PIP},
     'test': {
         'coverage': 'python3-coverage',
         'hypothesis': 'python3-hypothesis',

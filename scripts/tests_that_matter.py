@@ -21,6 +21,8 @@ FURTHER = {
 }
 # The modules under nodes/ that have no tests by their own name.
 PARTS_OF = {
+    'nodes/keyboard_enable.py': 'nodes.keyboard',
+    'nodes/keyboard_terminal.py': 'nodes.keyboard',
     'nodes/resolver_clock.py': 'nodes.resolver',
     'nodes/resolver_inputs.py': 'nodes.resolver',
     'nodes/resolver_outputs.py': 'nodes.resolver',

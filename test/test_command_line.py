@@ -13,6 +13,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from wrist_control import WRISTS
 from wrist_control.graph.processes import config_file, executable_file
 from wrist_control.nodes.joint_simulator import JointSimulator
+from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
@@ -22,6 +23,7 @@ from wrist_interfaces.msg import WristStatus
 
 OTHERS = {
     'joint_simulator': JointSimulator,
+    'keyboard': Keyboard,
     'operator': Operator,
     'physics_simulator': PhysicsSimulator,
     'stewart_forward_kinematics': StewartForwardKinematics,

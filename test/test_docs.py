@@ -12,6 +12,7 @@ import pytest
 from machine import APT_OF_EXTRA
 from wrist_control.nodes import (
     joint_simulator,
+    keyboard,
     operator,
     physics_settings,
     stewart_forward_kinematics,
@@ -21,6 +22,7 @@ from wrist_control.nodes.resolver_settings import mechanism_specs, specs
 from wrist_control.wrists import WRISTS, make_wrist
 
 from .documents import DOCUMENTS, FIRST_STEPS, ROOT, blocks, without_blocks
+from .typing_hand import Typist
 
 INTERFACES = (ROOT / 'docs' / 'interfaces.md').read_text()
 PARAMETERS = INTERFACES + (ROOT / 'docs' / 'wrists.md').read_text()
@@ -43,8 +45,11 @@ def commands(*documents):
 
 # What the first steps show is run by a test of their own.
 COMMANDS = commands(*(document for document in DOCUMENTS if document != FIRST_STEPS))
-NODES = [one for one in COMMANDS if '--ros-args' in one.values[0]]
-PROGRAMS = [one for one in COMMANDS if one.values[0].startswith('./env') and one not in NODES]
+TYPED = [one for one in COMMANDS if one.values[0].startswith('./env keyboard')]
+NODES = [one for one in COMMANDS if '--ros-args' in one.values[0] and one not in TYPED]
+PROGRAMS = [
+    one for one in COMMANDS if one.values[0].startswith('./env') and one not in (*NODES, *TYPED)
+]
 SNIPPETS = [block for document in DOCUMENTS for _, block in blocks(document, 'python')]
 TARGETS = re.findall(r'^(\w+):', (ROOT / 'Makefile').read_text(), re.MULTILINE)
 TARGETS += [f'setup-{extra}' for extra in APT_OF_EXTRA]
@@ -57,7 +62,8 @@ def words(command, document, folder):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(content)
         command = command.replace(f' {name}', f' {folder / name}')
-    return shlex.split(command)
+    # Pages are served side by side where tests are.
+    return shlex.split(command) + ['-p', 'port:=0'] * (' console ' in command)
 
 
 @pytest.mark.parametrize(('command', 'document'), NODES)
@@ -75,6 +81,20 @@ def test_every_node_in_the_documents_starts_and_ends_cleanly(
     process.send_signal(signal.SIGTERM)
     _, said = process.communicate(timeout=10.0)
     assert process.returncode == 0, said
+
+
+@pytest.mark.parametrize(('command', 'document'), TYPED)
+def test_every_keyboard_in_the_documents_starts_in_a_terminal(
+    process_environment, graph, tmp_path, command, document
+):
+    typist = Typist(process_environment, words(command, document, tmp_path), folder=ROOT)
+    try:
+        graph.until(lambda: 'Ctrl-C ends' in typist.written)
+        typist.type('\x03')
+        graph.until(lambda: typist.process.poll() is not None)
+        assert typist.process.returncode == 0
+    finally:
+        typist.close()
 
 
 @pytest.mark.parametrize(('command', 'document'), PROGRAMS)
@@ -99,7 +119,7 @@ def test_the_readme_starts_with_the_two_commands():
 
 
 def test_every_command_is_run_or_is_a_target_of_make():
-    others = [one.values[0] for one in COMMANDS if one not in (*NODES, *PROGRAMS)]
+    others = [one.values[0] for one in COMMANDS if one not in (*NODES, *PROGRAMS, *TYPED)]
     others += [line for _, block in blocks(FIRST_STEPS, 'sh') for line in block.splitlines()]
     assert {line.split()[0] for line in others} <= {'make', './env'}
 
@@ -154,7 +174,8 @@ def test_the_document_of_the_wrists_is_what_the_code_says(tmp_path):
 
 
 @pytest.mark.parametrize(
-    'node', [operator, joint_simulator, physics_settings, stewart_forward_kinematics]
+    'node',
+    [operator, keyboard, joint_simulator, physics_settings, stewart_forward_kinematics],
 )
 def test_every_other_parameter_is_in_the_documents(node):
     missing = [spec.name for spec in node.SPECS if f'`{spec.name}`' not in PARAMETERS]

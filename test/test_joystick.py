@@ -11,11 +11,17 @@ def test_the_hand_is_asked_for_rates_only_while_the_button_is_held(graph):
     commands = graph.listen(TwistStamped, 'cmd_vel')
     publisher = graph.publisher(Joy, 'joy')
 
-    def asked(pressed):
-        publisher.publish(Joy(axes=[0.0, 1.0, 0.0], buttons=[pressed]))
+    def asked(pressed, stick=1.0):
+        publisher.publish(Joy(axes=[0.0, stick, 0.0], buttons=[pressed]))
         return commands and commands[-1].twist.angular.y != 0.0
 
+    def let_go():
+        asked(1, stick=0.0)
+        graph.spin(0.2)
+
+    let_go()
     graph.until(lambda: asked(1))
     graph.until(lambda: not asked(0))
+    let_go()
     graph.until(lambda: asked(1))
     graph.until(lambda: commands[-1].twist.angular.y == 0.0)  # silence counts as released

@@ -124,6 +124,9 @@ def test_axes_scales_and_deadzone_of_a_joystick_are_those_of_the_parameters(grap
     commands = graph.listen(TwistStamped, 'cmd_vel')
     publisher = graph.publisher(Joy, 'joy')
 
+    publisher.publish(Joy(axes=[0.0, 0.0, 0.0], buttons=[0, 1]))
+    graph.spin(0.2)
+
     def moved():
         publisher.publish(Joy(axes=[0.6, 0.1, -1.0], buttons=[0, 1]))
         return commands and asked(commands)[-1].any()
@@ -138,8 +141,9 @@ def test_a_joystick_that_falls_silent_counts_as_released_after_its_own_timeout(g
         graph, maneuver='joystick', joy_timeout=0.3, enable_button=-1, joy_axes=[0, 1, 2]
     )
     publisher = graph.publisher(Joy, 'joy')
-    publisher.publish(Joy(header=TwistStamped().header, axes=[0.0, 1.0, 0.0]))
-    graph.spin(0.1)
+    for deflection in (0.0, 1.0):
+        publisher.publish(Joy(header=TwistStamped().header, axes=[0.0, deflection, 0.0]))
+        graph.spin(0.1)
     before = len(commands)
     for _ in range(25):
         clock.tick()

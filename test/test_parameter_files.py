@@ -11,6 +11,7 @@ from rclpy.parameter import get_parameter_value, parameter_value_to_python
 
 from wrist_control import WRISTS
 from wrist_control.nodes.joint_simulator import JointSimulator
+from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
@@ -20,6 +21,7 @@ from wrist_control.ros.command_line import silent_files
 CONFIG = Path(__file__).resolve().parents[1] / 'config'
 NODES = [(Resolver, wrist) for wrist in WRISTS]
 NODES += [(JointSimulator,), (PhysicsSimulator,), (Operator,), (StewartForwardKinematics,)]
+NODES += [(Keyboard,)]
 IDS = [node[-1] if node[1:] else node[0].__name__ for node in NODES]
 FILES = sorted(CONFIG.glob('*.yaml'))
 every_node = pytest.mark.parametrize('node', NODES, ids=IDS)

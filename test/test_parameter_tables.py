@@ -7,17 +7,21 @@ from pathlib import Path
 import pytest
 
 from wrist_control.nodes.joint_simulator import JointSimulator
+from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
+from wrist_control.web.console import Console
 
 TEXT = (Path(__file__).resolve().parents[1] / 'docs' / 'interfaces.md').read_text()
 SECTIONS = {
     'Parameters of every resolver': (Resolver, 'three_gimbal'),
     'Parameters of stewart_forward_kinematics': (StewartForwardKinematics,),
     'Parameters of the operator': (Operator,),
+    'Parameters of the keyboard': (Keyboard,),
     'Parameters of the joint simulator': (JointSimulator,),
+    'Parameters of the console': (Console,),
     'Parameters of the physics simulator': (PhysicsSimulator,),
 }
 # Defaults that the tables say in words, or in units that people think in.
@@ -66,10 +70,10 @@ def test_every_row_of_a_table_is_true(graph, section):
         value, descriptor = node.get_parameter(name).value, node.describe_parameter(name)
         assert descriptor.read_only != live, name
         found = value if hasattr(value, '__len__') else [value]
-        if default == 'none':
-            assert all(math.isinf(x) for x in found), name
-        elif isinstance(value, str):
+        if isinstance(value, str):
             assert value == ('' if default == 'empty' else default), name
+        elif default == 'none':
+            assert all(math.isinf(x) for x in found), name
         elif (expected := numbers_of(default)) is not None:
             assert tuple(found) == pytest.approx(expected), name
         if match := re.match(r'(-?[\de.-]+) to ([\d.]+|inf)( \S+)?', valid):

@@ -9,6 +9,7 @@ from rcl_interfaces.srv import SetParametersAtomically
 
 from wrist_control import WRISTS, WristError
 from wrist_control.nodes.joint_simulator import JointSimulator
+from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
@@ -29,7 +30,7 @@ def test_every_resolver_parameter_says_what_it_is_and_what_is_valid(graph, wrist
         assert descriptor.additional_constraints.startswith('valid: '), name
 
 
-@pytest.mark.parametrize('kind', [Operator, JointSimulator])
+@pytest.mark.parametrize('kind', [Operator, JointSimulator, Keyboard])
 def test_every_other_parameter_says_what_it_is_and_what_is_valid(graph, kind):
     for name, descriptor in described(graph.start(kind)).items():
         assert descriptor.description, name

@@ -36,10 +36,11 @@ def test_every_executable_of_the_contract_is_installed():
     names = {path.name for path in EXECUTABLES.iterdir()}
     resolvers = {f'{wrist}_resolver' for wrist in WRISTS}
     others = {'operator', 'joint_simulator', 'physics_simulator', 'stewart_forward_kinematics'}
+    others |= {'keyboard'}
     assert others | resolvers <= names
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 @pytest.mark.parametrize('clock', ['false', 'true'])
 @pytest.mark.parametrize(
     'executable',
@@ -53,6 +54,21 @@ def test_a_signal_ends_a_node_with_exit_code_0(
     said = stop(process, number)
     assert process.returncode == 0, said
     assert 'Traceback' not in said
+
+
+def test_a_node_that_was_started_by_nohup_outlives_its_terminal(process_environment, until_ready):
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup leaves it to what it starts
+    try:
+        process = start(process_environment, 'operator')
+    finally:
+        signal.signal(signal.SIGHUP, before)
+    process.send_signal(signal.SIGHUP)
+    until_ready(process)
+    process.send_signal(signal.SIGHUP)
+    with pytest.raises(subprocess.TimeoutExpired):
+        process.wait(0.5)
+    stop(process, signal.SIGTERM)
+    assert process.returncode == 0
 
 
 def test_a_bad_parameter_ends_a_node_with_one_sentence(process_environment):

@@ -107,6 +107,10 @@ def test_a_joystick_that_is_published_best_effort_is_heard(graph):
         Joy, 'joy', QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
     )
 
+    graph.until(lambda: publisher.get_subscription_count())
+    publisher.publish(Joy(axes=[0.0, 0.0, 0.0]))
+    graph.spin(0.2)
+
     def asked():
         publisher.publish(Joy(axes=[1.0, 1.0, 1.0]))
         return commands and commands[-1].twist.angular.x

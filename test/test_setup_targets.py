@@ -22,13 +22,15 @@ PYTHONS = ('3.10.13', '3.11.7', '3.12.1', '3.13.0')
 
 # Those who only look at the wrists shall not wait for what checks the code.
 LIGHT = ('demo', 'compare', 'dexterity', 'hour', 'campaign')
+EVERYTHING = {f'setup-{extra}' for extra in EXTRAS}
 HEAVY = {
-    'test': {'setup-test', 'setup-docs', 'setup-physics'},
-    'coverage': {'setup-test', 'setup-docs', 'setup-physics'},
+    'test': EVERYTHING,
+    'coverage': EVERYTHING,
+    'console': {'setup-console'},
     'judge': {'setup-physics'},
     'lint': {'setup-test'},
     'format': {'setup-test'},
-    'bench': {'setup-test', 'setup-physics'},
+    'bench': {'setup-test', 'setup-physics', 'setup-console'},
     'mutants': {'setup-test'},
     'docs': {'setup-docs'},
 }

@@ -153,6 +153,8 @@ def hostile_joy(random: Random) -> Joy:
     if random.random() < 0.5:  # a good one, but for one axis
         axes, buttons = [0.5, -0.5, 0.0, 0.5], [0, 0, 0, 0, 0, 1]
         axes[int(random.integers(4))] = float(random.choice([*NOT_FINITE, 3e38, -1.0, 1.0, 7.0]))
+    if random.random() < 0.3:  # at rest: what comes next may count
+        axes, buttons = [0.0] * 4, [0, 0, 0, 0, 0, 1]
     if random.random() < 0.02:
         axes, buttons = [0.5] * 20_000, [1] * 20_000
     return Joy(

@@ -14,7 +14,9 @@ PACKAGE = MANIFEST.findtext('name')
 
 # Executables that do not depend on the kind of wrist: the name, and the module under nodes/.
 NODES = [
+    'console',
     'joint_simulator',
+    'keyboard',
     'operator',
     'physics_simulator',
     'stewart_forward_kinematics',
@@ -50,6 +52,7 @@ setup(
     license_files=['LICENSE'],
     maintainer=MANIFEST.findtext('maintainer'),
     maintainer_email=MANIFEST.find('maintainer').get('email'),
+    package_data={f'{PACKAGE}.web': ['*.js', '*.css']},
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
     py_modules=[f'{PACKAGE}_start'],
     data_files=[
@@ -60,8 +63,10 @@ setup(
     python_requires='>=3.10',
     install_requires=['numpy>=1.26'],
     extras_require={
+        'console': ['nicegui>=3.18'],
         'figures': ['matplotlib', 'pillow', 'rich'],
         'physics': ['mujoco>=3.3', 'rich'],
+        'record': ['mcap>=1.2', 'rosbags>=0.10'],
         # ROS 2 Jazzy from its wheels; wrist_interfaces and tf2_msgs are built beside it.
         'ros': ['ros-jazzy-common-interfaces==5.3.6', 'ros-jazzy-rclpy[fastrtps]==7.1.6'],
         # By this name `colcon test` knows which tool runs the tests.

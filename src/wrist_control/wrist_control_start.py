@@ -11,6 +11,8 @@ from functools import partial
 from importlib import import_module
 
 NODES = 'wrist_control.nodes'
+# Executables that stand in a room of their own.
+ROOMS = {'console': 'wrist_control.web'}
 
 
 def __getattr__(name: str) -> partial[None]:
@@ -21,10 +23,11 @@ def __getattr__(name: str) -> partial[None]:
 
 
 def _start(executable: str) -> None:
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, lambda *_: os._exit(0))
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # by nohup
+            signal.signal(number, lambda *_: os._exit(0))
     wrist = executable.removesuffix('_resolver')
     if wrist != executable:
         import_module(f'{NODES}.resolver').main(wrist)
     else:
-        import_module(f'{NODES}.{executable}').main()
+        import_module(f'{ROOMS.get(executable, NODES)}.{executable}').main()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -35,24 +36,27 @@ def executable_file(name: str) -> Path:
     return Path(get_package_prefix(PACKAGE)) / 'lib' / PACKAGE / name
 
 
-class NodeProcesses:
-    """Starts nodes on a private clock, and ends all of them when the block is left.
+class Processes:
+    """Starts nodes in one namespace; none of them outlives `end`, nor this process.
 
     Attributes:
-        namespace: Where their topics are: no other graph on this machine is disturbed.
+        namespace: Where their topics are.
     """
 
-    def __init__(self, name: str, files: Sequence[Path]) -> None:
+    def __init__(
+        self, namespace: str, files: Sequence[Path] = (), private: Sequence[str] = ()
+    ) -> None:
         """Prepare a namespace.
 
         Args:
-            name: Beginning of the namespace.
+            namespace: Where their topics are.
             files: Parameter files for every node.
+            private: Absolute topics that are kept inside the namespace.
         """
-        self.namespace = f'/{name}_{os.getpid()}'
+        self.namespace = namespace
         self._files = files
+        self._private = private
         self._running: dict[str, subprocess.Popen] = {}
-        self._interruption: BaseException | None = None
 
     def start(self, executable: str, parameters: Mapping[str, object]) -> None:
         """Start a node of this package.
@@ -62,9 +66,10 @@ class NodeProcesses:
             parameters: Values that win over the files.
         """
         remaps = [f'__ns:={self.namespace}']
-        remaps += [f'/{topic}:={self.namespace}/{topic}' for topic in ('clock', 'diagnostics')]
+        remaps += [f'/{topic}:={self.namespace}/{topic}' for topic in self._private]
         values = [f'{name}:={_text(value)}' for name, value in parameters.items()]
         command = [
+            *_ended_with_this_process(),
             str(executable_file(executable)),
             '--ros-args',
             *_each('-r', remaps),
@@ -84,6 +89,32 @@ class NodeProcesses:
                     f'{executable} ended with exit code {process.returncode}; it says why above.'
                 )
 
+    def end(self) -> None:
+        """End every node, and wait until they are gone."""
+        for process in self._running.values():
+            process.terminate()
+        for process in self._running.values():
+            try:
+                process.wait(GRACE)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        self._running.clear()
+
+
+class NodeProcesses(Processes):
+    """Nodes on a private clock, in a namespace that nobody else has; ended with the block."""
+
+    def __init__(self, name: str, files: Sequence[Path]) -> None:
+        """Prepare a namespace: no other graph on this machine is disturbed.
+
+        Args:
+            name: Beginning of the namespace.
+            files: Parameter files for every node.
+        """
+        super().__init__(f'/{name}_{os.getpid()}', files, ('clock', 'diagnostics'))
+        self._interruption: BaseException | None = None
+
     def __enter__(self) -> NodeProcesses:
         """Be told of SIGTERM as of Ctrl-C, so that the nodes are always ended."""
         self._before = {number: signal.signal(number, self._interrupt) for number in SIGNALS}
@@ -101,19 +132,18 @@ class NodeProcesses:
         trace: TracebackType | None,
     ) -> None:
         """End every node."""
-        for process in self._running.values():
-            process.terminate()
-        for process in self._running.values():
-            try:
-                process.wait(GRACE)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
+        self.end()
         for number, handler in self._before.items():
             signal.signal(number, handler)
         if self._interruption is not None and isinstance(error, Exception):
             # It came in the middle of a call into ROS, which has made an error of its own of it.
             raise self._interruption from None
+
+
+def _ended_with_this_process() -> list[str]:
+    """Return what to begin a command with, so that even a killed caller leaves nothing running."""
+    setpriv = shutil.which('setpriv')
+    return [setpriv, '--pdeathsig', 'TERM', '--'] if setpriv else []
 
 
 @contextmanager

@@ -23,7 +23,7 @@ from wrist_control.operating.maneuvers import (
 from wrist_control.operating.pilot import Pilot
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.ros import convert
-from wrist_control.ros.diagnostics import OK, Diagnostics
+from wrist_control.ros.diagnostics import OK, WARN, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.parameters import Spec
 from wrist_control.ros.qos import NEWEST, OUTPUT
@@ -61,7 +61,10 @@ SPECS = [
     ),
     Spec('joy_deadzone', 0.05, 'Deflection that counts as none', '', 0.0, 0.9),
     Spec('joy_timeout', 0.5, 'Silence after which a joystick counts as released', 's', 0.01, 10.0),
+    Spec('joy_expo', 0.0, '0: rates in proportion; 1: as the cube, finer in the middle', '', 0, 1),
     Spec('enable_button', 5, 'Button that must be held, -1 for none', '', -1, 100),
+    Spec('turbo_button', -1, 'Button that changes the speed while held, -1 for none', '', -1, 100),
+    Spec('turbo_factor', 2.0, 'Times as fast then; below 1 is slower', '', 0.01, 10.0),
 ]
 TRIPLES = ('constant_rates', 'joy_axes', 'joy_scales')
 
@@ -103,8 +106,15 @@ class Operator(GuardedNode):
     def _mapping(self) -> Joystick:
         x, y, z = self._values['joy_axes']
         p, q, r = self._values['joy_scales']
-        button, deadzone = self._values['enable_button'], self._values['joy_deadzone']
-        return Joystick((x, y, z), (p, q, r), deadzone, button)
+        return Joystick(
+            axes=(x, y, z),
+            scales=(p, q, r),
+            deadzone=self._values['joy_deadzone'],
+            enable_button=self._values['enable_button'],
+            expo=self._values['joy_expo'],
+            turbo_button=self._values['turbo_button'],
+            turbo_factor=self._values['turbo_factor'],
+        )
 
     @staticmethod
     def _check(values: dict[str, Any]) -> None:
@@ -166,6 +176,8 @@ class Operator(GuardedNode):
         return self._wrist_is_up or not self.count_publishers('wrist_status')
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
+        if self._joystick is not None and self._joystick.must_let_go:
+            return WARN, 'The joystick does not count yet: let go of its sticks once.', {}
         if self._joystick is not None:
             return OK, 'Following the joystick.', {}
         if self._pilot is None:

@@ -76,12 +76,11 @@ class Resolver(GuardedNode):
         """
         self._hidden: list[Subscription] = []
         super().__init__(f'{wrist_name or ANY}_resolver', **node_options)
-        chosen = () if wrist_name else (wrist_spec(),)
-        for spec in chosen:
-            wrist_name = str(self.given(spec))
+        chosen = wrist_spec(wrist_name)
+        wrist_name = str(self.given(chosen))
         geometry = mechanism_specs(wrist_name)
         own = mechanism(wrist_name, {spec.name: self.given(spec) for spec in geometry})
-        self._values = completed(self.declare([*chosen, *geometry, *specs(own)]))
+        self._values = completed(self.declare([chosen, *geometry, *specs(own)]))
         self._started = dict(self._values)
         check_own(own, self._values)
         wrist = limited(own, self._values)

@@ -24,9 +24,9 @@ LONGEST_STOP, FAST = 10.0, {'revolute': 10.0, 'prismatic': 1.0}
 BEHIND = {'revolute': 0.1, 'prismatic': 0.005}
 
 
-def wrist_spec() -> Spec:
-    """Return the parameter that says which wrist, of those that there are here."""
-    names = wrist_names()
+def wrist_spec(wrist_name: str = '') -> Spec:
+    """Return the parameter that says which wrist: of all that there are here, or this one."""
+    names = (wrist_name,) if wrist_name else wrist_names()
     return Spec('wrist', names[0], 'Which wrist', choices=names)
 
 

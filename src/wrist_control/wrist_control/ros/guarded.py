@@ -52,6 +52,13 @@ class GuardedNode(ParameterNode):
         # Before the callback that rclpy has set up, which would change the clock at once.
         self.add_on_set_parameters_callback(self._keep_clock)
 
+    def wind_up(self) -> None:
+        """Take what only a running node needs; called once, before its first callback.
+
+        Raises:
+            WristError: It cannot run here; the sentence says why.
+        """
+
     def wind_down(self) -> None:
         """Bring to rest whatever this node moves; called once, after its last callback."""
 

@@ -12,7 +12,7 @@ from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker
 
 from wrist_control.ros.convert import fill
-from wrist_control.rotations import IDENTITY, Pose, Vector, cross, placed
+from wrist_control.rotations import IDENTITY, Pose, Vector, placed
 from wrist_control.wrists import Wrist
 from wrist_control.wrists.body import (
     BAR,
@@ -26,12 +26,9 @@ from wrist_control.wrists.body import (
     Shape,
     colours,
     moved,
-    scaled,
     turn_of_z,
 )
 
-# Pieces of a whole ring.
-PIECES = 48
 # As many points of the way of the probe's tip are shown, and so far apart at least, m.
 TRAIL, APART = 200, 0.002
 IDLE = ColorRGBA(r=0.58, g=0.64, b=0.72, a=1.0)
@@ -137,17 +134,7 @@ def _cylinder(rod: Rod) -> tuple[Marker, Pose]:
 
 
 def _arc(arc: Arc) -> Marker:
-    pieces = max(1, math.ceil(PIECES * arc.angle / math.tau))
-    x, y, z = arc.centre
-    across = cross(arc.axis, arc.begin)
-    points = []
-    for piece in range(pieces + 1):
-        angle = arc.angle * piece / pieces
-        (bx, by, bz), (ax, ay, az) = (
-            scaled(arc.begin, math.cos(angle)),
-            scaled(across, math.sin(angle)),
-        )
-        points.append(Point(x=x + bx + ax, y=y + by + ay, z=z + bz + az))
+    points = [_point(point) for point in arc.points()]
     return Marker(type=Marker.LINE_STRIP, scale=Vector3(x=2.0 * arc.radius), points=points)
 
 

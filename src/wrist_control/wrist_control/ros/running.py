@@ -1,4 +1,4 @@
-"""Run one node until it is told to stop: SIGINT and SIGTERM bring it to rest, and end it with 0.
+"""Run one node until it is told to stop: a signal brings it to rest, and ends it with 0.
 
 ROS's own signal handlers take the context away at once, in the middle of whatever is going on,
 and nothing can be said any more. Here a signal only ends the spinning.
@@ -35,7 +35,7 @@ LONGEST_WAIT = 3600.0
 MOST_BREAKS, SOON = 10, 1.0
 # How long a node that cannot start looks for somebody on /rosout, and lets the words go out, s.
 LISTENERS_WITHIN, LAST_WORDS = 1.0, 0.3
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def run(make_node: Callable[[], GuardedNode]) -> int:
@@ -97,6 +97,7 @@ def _live(node: GuardedNode, told: socket.socket) -> None:
     gc.freeze()  # what lives now lives to the end: it need not be looked at again
     threading.Thread(target=_await_signal, args=(told, ended), daemon=True).start()
     try:
+        node.wind_up()
         _spin(node, executor, ended)
     finally:
         node.wind_down()
@@ -128,12 +129,14 @@ def _hear_signals() -> socket.socket:
     tell.setblocking(False)
     signal.set_wakeup_fd(tell.detach(), warn_on_full_buffer=False)
     for number in SIGNALS:
-        signal.signal(number, lambda *_: None)
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # by nohup
+            signal.signal(number, lambda *_: None)
     return told
 
 
 def _await_signal(told: socket.socket, ended: Future) -> None:
-    told.recv(1)
+    while told.recv(1)[0] not in SIGNALS:
+        pass  # a node may listen to others, which do not end it
     ended.set_result(None)
 
 

@@ -15,6 +15,8 @@ from wrist_control.units import INCH
 
 # Radius of the bars that a wrist without dimensions of its own is drawn with, m.
 BAR = 0.003
+# Pieces that a whole ring is drawn with.
+PIECES = 48
 # [Barker1986]: the hand holds a probe of 6 in.
 PROBE_LENGTH = 6.0 * INCH
 ALONG_X: Vector = (PROBE_LENGTH, 0.0, 0.0)
@@ -58,6 +60,19 @@ class Arc(NamedTuple):
     axis: Vector
     angle: float
     radius: float = BAR
+
+    def points(self) -> list[Vector]:
+        """Return points along its middle, as many as a curve needs that looks smooth, m."""
+        pieces = max(1, math.ceil(PIECES * self.angle / math.tau))
+        across = cross(self.axis, self.begin)
+        points: list[Vector] = []
+        for piece in range(pieces + 1):
+            turn = self.angle * piece / pieces
+            x, y, z = scaled(self.begin, math.cos(turn))
+            ax, ay, az = scaled(across, math.sin(turn))
+            cx, cy, cz = self.centre
+            points.append((cx + x + ax, cy + y + ay, cz + z + az))
+        return points
 
 
 class Ball(NamedTuple):
