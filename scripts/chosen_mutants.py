@@ -33,6 +33,7 @@ WINDOWS, FEASIBLE = 'resolving/rate_windows.py', 'resolving/feasible.py'
 EASING = 'resolving/easing.py'
 JOYSTICK, KEYS = 'operating/joystick.py', 'operating/keys.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
+SPARE, AXES, URDF = 'wrists/spare_joint.py', 'wrists/three_axes.py', 'wrists/urdf.py'
 CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
 RECEIPT = 'receipt_time=self._step_clock.receipt_time()'
 STEADY = 'return convert.seconds_of(self._node.steady.now().nanoseconds)'
@@ -216,8 +217,10 @@ CHOSEN = tuple(
             'POSE_ERROR = 1.0',
             'a proof that proves too much',
         ),
-        (FOUR, 'CUSHION = 0.25', 'CUSHION = 2.5', 'the fourth gimbal gives up too soon'),
-        (FOUR, 'CUSHION = 0.25', 'CUSHION = 0.025', 'the fourth gimbal runs into its limit'),
+        (SPARE, 'CUSHION = 0.25', 'CUSHION = 2.5', 'the fourth gimbal gives up too soon'),
+        (SPARE, 'CUSHION = 0.25', 'CUSHION = 0.025', 'the fourth gimbal runs into its limit'),
+        (URDF, 'law = self.gain *', 'law = -self.gain *', 'the spare joint drives into lock'),
+        (AXES, 'SEAM = 2e-3', 'SEAM = 0.2', 'the hand is not where it is said to be'),
         (FOUR, 'law = -self.gain', 'law = self.gain', 'the fourth gimbal drives into lock'),
         (THREE, 'LOCK = 1e-9', 'LOCK = 1e-3', 'the joints are not those of the pose'),
         (THREE, 'TIE = 1e-6', 'TIE = 0.1', 'the branch that is further away is taken'),

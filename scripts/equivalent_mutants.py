@@ -145,10 +145,10 @@ EQUIVALENT = (
         'a norm does not see a sign',
     ),
     Equivalent(
-        'wrists/four_gimbal.py',
-        'bound = joint.upper if speed * cosine > 0.0 else joint.lower',
-        'speed * cosine > 0.0',
-        '(speed * cosine >= 0.0)',
+        'wrists/spare_joint.py',
+        'bound = joint.upper if speed * determinant > 0.0 else joint.lower',
+        'speed * determinant > 0.0',
+        '(speed * determinant >= 0.0)',
         'a joint at rest nears neither limit, and what is left of it is not looked at',
     ),
     *(

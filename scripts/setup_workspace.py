@@ -29,7 +29,7 @@ LOGS = ROOT / 'log'
 INTERFACES = ROOT / 'src' / 'wrist_interfaces'
 CONTROL = ROOT / 'src' / 'wrist_control'
 # The folders of files that come with the package, beside its modules.
-SHIPPED = ('config', 'foxglove', 'launch', 'rviz')
+SHIPPED = ('config', 'foxglove', 'launch', 'rviz', 'urdf')
 # What ROS 2 ships and its wheels lack: colcon finds it only where it is named.
 TF2 = ROOT / 'underlay' / 'tf2_msgs'
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from wrist_control.wrists import WRISTS, Wrist, make_wrist, wrist_class
+from wrist_control.wrists.registry import DESCRIBED
 
 DOCS = Path(__file__).resolve().parent.parent / 'docs'
 TARGET, GALLERY = DOCS / 'wrists.md', DOCS / 'gallery'
@@ -44,8 +45,11 @@ def wrist_row(name: str, wrist: Wrist) -> str:
 
 
 def parameter_rows(name: str) -> Iterator[str]:
-    """Yield a row for each dimension and each list of points of one wrist."""
+    """Yield a row for each text, dimension and list of points of one wrist."""
     kind = wrist_class(name)
+    for text in kind.texts().values():
+        valid = 'a list of names' if text.names else 'a text'
+        yield f'| `{text.parameter}` | empty | {valid} | {text.description} |'
     for parameter, facts in kind.dimensions().items():
         most = '' if math.isinf(facts.maximum) else f' to {facts.maximum:.4g}'
         valid = f'{facts.minimum:.4g}{most}{"" if most else " or more"} {facts.unit}'
@@ -71,7 +75,7 @@ def document() -> str:
     rows = [wrist_row(name, make_wrist(name)) for name in WRISTS]
     beside = '\nBeside the parameters below, each has those of '
     beside += '[every resolver](interfaces.md#parameters-of-every-resolver).\n'
-    return HEAD + '\n'.join(rows) + '\n' + beside + ''.join(map(section, WRISTS))
+    return HEAD + '\n'.join(rows) + '\n' + beside + ''.join(map(section, [*WRISTS, *DESCRIBED]))
 
 
 if __name__ == '__main__':

@@ -18,8 +18,8 @@ from wrist_control.nodes import (
     stewart_forward_kinematics,
 )
 from wrist_control.nodes.resolver import Resolver
-from wrist_control.nodes.resolver_settings import specs
-from wrist_control.wrists import WRISTS
+from wrist_control.nodes.resolver_settings import mechanism_specs, specs
+from wrist_control.wrists import WRISTS, make_wrist
 
 from .documents import DOCUMENTS, FIRST_STEPS, ROOT, blocks, without_blocks
 from .typing_hand import Typist
@@ -158,7 +158,11 @@ def test_every_link_and_picture_of_a_document_is_there(document):
 
 @pytest.mark.parametrize('wrist', WRISTS)
 def test_every_parameter_of_a_resolver_is_in_the_documents(wrist):
-    missing = [spec.name for spec in specs(wrist) if f'`{spec.name}`' not in PARAMETERS]
+    missing = [
+        spec.name
+        for spec in [*mechanism_specs(wrist), *specs(make_wrist(wrist))]
+        if f'`{spec.name}`' not in PARAMETERS
+    ]
     assert missing == []
 
 

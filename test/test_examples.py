@@ -15,6 +15,7 @@ from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, turn
 
 from .documents import FIRST_STEPS
 
+PANDA = Path(__file__).resolve().parents[1] / 'src' / 'wrist_control' / 'urdf' / 'panda.urdf'
 FOLDER = Path(__file__).resolve().parents[1] / 'examples'
 SCRIPTS = sorted(FOLDER.glob('*.py'))
 # These need somebody's resolver: test_first_steps.py runs them beside one.
@@ -55,6 +56,20 @@ def choose_a_wrist(said):
         assert re.search(rf'{points_only} +points only', others)
 
 
+def your_urdf(said):
+    panda = make_wrist('urdf', description=str(PANDA), tip='panda_link8')
+    for joint in panda.joints:
+        upper, rate = numbers(said, rf'{joint.name} +-?\d+°  +(\d+)°  +(\d+)°/s')
+        assert math.radians(upper) == pytest.approx(joint.upper, abs=0.01)
+        assert math.radians(rate) == pytest.approx(joint.rate_limit, abs=0.01)
+    margin, late = numbers(said, r'at 20% of its speed: closest to lock (\S+), (\S+) s late')
+    limits = [0.2 * joint.rate_limit for joint in panda.joints]
+    flight = fly(panda, joint_rate_limits=limits)
+    assert margin == pytest.approx(flight.margin.min(), abs=5e-4)
+    assert late == pytest.approx(flight.time_lost[-1], abs=0.005)
+    assert late > 0.1
+
+
 def stewart_with_proof(said):
     wrist = make_wrist('stewart')
     answer = wrist.forward_kinematics.solve(numbers(said, 'lengths: ' + 6 * r'([\d.]+) '))
@@ -93,6 +108,7 @@ NUMBERS = {
         lost_in_lock,
         fly_and_plot,
         choose_a_wrist,
+        your_urdf,
         stewart_with_proof,
         teleoperate,
         read_a_recording,

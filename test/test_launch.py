@@ -16,7 +16,7 @@ from types import ModuleType
 import pytest
 import yaml
 
-from wrist_control import WRISTS
+from wrist_control import WRISTS, make_wrist
 from wrist_control.nodes import operator
 from wrist_control.nodes.resolver_settings import specs
 from wrist_control.operating.maneuvers import MANEUVERS
@@ -210,7 +210,9 @@ def test_all_are_in_the_namespace_and_rviz_looks_at_its_frame(described, namespa
     (drawn,) = (one[4] for one in nodes if one[0] == 'rviz2')
     assert drawn == ['-d', f'{CONTROL}/rviz/wrist.rviz', '-f', frame]
     assert Path(drawn[1]).is_file()
-    assert 'forearm' in {one.default for one in specs('carpal') if one.name == 'forearm_frame'}
+    assert 'forearm' in {
+        one.default for one in specs(make_wrist('carpal')) if one.name == 'forearm_frame'
+    }
 
 
 def test_every_argument_says_what_it_is_and_is_in_the_documents(described):

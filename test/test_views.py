@@ -24,7 +24,7 @@ LAYOUT = CONTROL / 'foxglove' / 'wrist.json'
 RVIZ = yaml.safe_load((CONTROL / 'rviz' / 'wrist.rviz').read_text())
 FOXGLOVE = json.loads(LAYOUT.read_text())
 PANELS = FOXGLOVE['configById']
-FRAMES = {one.default for one in specs('three_gimbal') if one.name.endswith('_frame')}
+FRAMES = {one.default for one in specs(make_wrist('three_gimbal')) if one.name.endswith('_frame')}
 # By their names without a namespace; no namespace changes /tf, and /diagnostics.
 TYPES = {
     '/diagnostics': DiagnosticArray,

@@ -24,7 +24,7 @@ NODES = [
 ]
 
 # The folders of files that come with the package.
-SHIPPED = ('config', 'foxglove', 'launch', 'rviz')
+SHIPPED = ('config', 'foxglove', 'launch', 'rviz', 'urdf')
 
 
 def wrist_names():
@@ -32,8 +32,8 @@ def wrist_names():
 
     The registry is a plain dictionary, and is run on its own, so that a build needs no numpy.
     """
-    registry = HERE / PACKAGE / 'wrists' / 'registry.py'
-    return sorted(runpy.run_path(str(registry))['WRISTS'])
+    registry = runpy.run_path(str(HERE / PACKAGE / 'wrists' / 'registry.py'))
+    return sorted([*registry['WRISTS'], *registry['DESCRIBED']])
 
 
 def console_scripts():

@@ -193,6 +193,16 @@ def cross(a: Vector, b: Vector) -> Vector:
     )
 
 
+def between(a: Vector, b: Vector) -> Vector:
+    """Return the vector from one point to another, b − a."""
+    return (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Return the scalar product a · b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
 def about_x(angle: float) -> Quaternion:
     """Return a turn about x, rad."""
     return (math.cos(0.5 * angle), 0.0, 0.0, math.sin(0.5 * angle))
@@ -206,6 +216,12 @@ def about_y(angle: float) -> Quaternion:
 def about_z(angle: float) -> Quaternion:
     """Return a turn about z, rad."""
     return (math.cos(0.5 * angle), math.sin(0.5 * angle), 0.0, 0.0)
+
+
+def about(axis: Vector, angle: float) -> Quaternion:
+    """Return a turn about a unit vector, rad."""
+    s = math.sin(0.5 * angle)
+    return (math.cos(0.5 * angle), s * axis[2], s * axis[1], s * axis[0])
 
 
 def xyzw(a: Quaternion) -> Quaternion:

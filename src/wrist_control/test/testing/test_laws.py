@@ -133,3 +133,22 @@ def seeded(fault, name):
 def test_every_fault_breaks_a_law(fault, name):
     with pytest.raises(LawBrokenError, match=f'{fault.__name__} breaks '):
         check_wrist(seeded(fault, name))
+
+
+@pytest.mark.parametrize(
+    ('name', 'told'),
+    [
+        ('three_gimbal', (0, 1)),
+        ('pitch_yaw', (0, 1, 2)),
+        ('pitch_yaw', (0, 2)),
+        ('carpal', (0, 2)),
+        ('pitch_yaw', (0,)),
+    ],
+)
+def test_followed_axes_that_are_too_few_too_many_or_others_break_their_law(name, told):
+    law = LAWS['the_joints_can_turn_the_hand_about_its_followed_axes_and_no_other']
+    wrist = make_wrist(name)
+    law(wrist, np.random.default_rng(1))
+    object.__setattr__(wrist, 'followed_axes', told)
+    with pytest.raises(LawBrokenError, match='followed_axes are '):
+        law(wrist, np.random.default_rng(1))

@@ -9,10 +9,14 @@ from wrist_control import InvalidValueError
 from wrist_control.wrists.dimension import (
     Dimension,
     PointList,
+    Text,
     dimension,
     dimensions_of,
+    joint_names,
     point_list,
     point_lists_of,
+    text,
+    texts_of,
 )
 
 
@@ -22,14 +26,24 @@ class Mechanism:
 
     radius: float = dimension(0.1, 'from the centre to a hinge', 'm', 0.01, 1.0)
     hinges: list | None = point_list('where the hinges are')
+    drawing: str = text('what it is made after', 'robot_drawing', 'a.svg')
+    joints: tuple = joint_names('which of its joints')
     name: str = ''
 
 
 def test_the_fields_of_a_mechanism_are_told_apart_by_what_they_are():
-    assert Mechanism() == Mechanism(0.1, None, '')
+    assert Mechanism() == Mechanism(0.1, None, '', '', joints=())
     facts = Dimension(0.1, 'from the centre to a hinge', 'm', 0.01, 1.0)
     assert dimensions_of(Mechanism) == {'radius': facts}
     assert point_lists_of(Mechanism) == {'hinges': PointList('where the hinges are')}
+    assert texts_of(Mechanism) == {
+        'drawing': Text('what it is made after', 'robot_drawing', 'a.svg'),
+        'joints': Text('which of its joints', 'joints', names=True),
+    }
+
+
+def test_a_text_is_not_printed_with_its_mechanism():
+    assert 'long' not in repr(Mechanism(drawing='long'))
 
 
 def test_values_on_the_bounds_are_valid():

@@ -7,6 +7,7 @@ import pytest
 from wrist_control import WRISTS, InvalidValueError, make_wrist
 from wrist_control.wrists import plugins, wrist_names
 from wrist_control.wrists.carpal import Carpal
+from wrist_control.wrists.registry import DESCRIBED
 
 
 def point(name, value):
@@ -25,13 +26,14 @@ def installed(monkeypatch):
 
 def test_what_is_plugged_in_stands_behind_the_wrists_that_are_here(installed):
     installed(point('mine', 'wrist_control.wrists.carpal:Carpal'))
-    assert wrist_names() == (*WRISTS, 'mine')
+    assert wrist_names() == (*WRISTS, *DESCRIBED, 'mine')
     assert make_wrist('mine', plunge=0.05) == Carpal(plunge=0.05)
 
 
 def test_a_name_that_is_taken_stays_with_its_wrist(installed):
-    installed(point('stewart', 'wrist_control.wrists.carpal:Carpal'))
-    assert wrist_names() == tuple(WRISTS)
+    taken = [point(name, 'wrist_control.wrists.carpal:Carpal') for name in ('stewart', 'urdf')]
+    installed(*taken)
+    assert wrist_names() == (*WRISTS, *DESCRIBED)
     assert type(make_wrist('stewart')).__name__ == 'Stewart'
 
 

@@ -20,9 +20,12 @@ from wrist_control.nodes.resolver_inputs import Inputs
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import (
     check_ceilings,
+    check_own,
     completed,
+    example,
     limited,
     mechanism,
+    mechanism_specs,
     settings,
     specs,
     wrist_spec,
@@ -37,6 +40,7 @@ from wrist_control.ros.guarded import GuardedNode
 from wrist_control.ros.polled_services import PolledServices
 from wrist_control.ros.qos import NEWEST
 from wrist_control.ros.running import run
+from wrist_control.ros.usage import is_wanted
 from wrist_control.ros.wrong_types import WrongTypes
 
 LEVELS = {
@@ -74,9 +78,12 @@ class Resolver(GuardedNode):
         super().__init__(f'{wrist_name or ANY}_resolver', **node_options)
         chosen = wrist_spec(wrist_name)
         wrist_name = str(self.given(chosen))
-        self._values = completed(self.declare([chosen, *specs(wrist_name)]))
+        geometry = mechanism_specs(wrist_name)
+        own = mechanism(wrist_name, {spec.name: self.given(spec) for spec in geometry})
+        self._values = completed(self.declare([chosen, *geometry, *specs(own)]))
         self._started = dict(self._values)
-        wrist = limited(mechanism(wrist_name, self._values), self._values)
+        check_own(own, self._values)
+        wrist = limited(own, self._values)
         self._supervisor = Supervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
         self._result = self._supervisor.tick(
@@ -214,4 +221,6 @@ class Resolver(GuardedNode):
 
 def main(wrist_name: str) -> None:
     """Run the resolver of one wrist, or of the one that its parameter `wrist` names."""
-    sys.exit(run(partial(Resolver, '' if wrist_name == ANY else wrist_name)))
+    name = '' if wrist_name == ANY else wrist_name
+    shown = {'parameter_overrides': example(name)} if name and is_wanted(sys.argv) else {}
+    sys.exit(run(partial(Resolver, name, **shown)))

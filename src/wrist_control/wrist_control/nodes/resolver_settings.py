@@ -6,9 +6,11 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from rclpy.parameter import Parameter
+
 from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.period import SupervisorSettings
-from wrist_control.ros.parameters import FRAME, Spec
+from wrist_control.ros.parameters import FRAME, NAMES, Spec
 from wrist_control.wrists import Wrist, wrist_class, wrist_names
 from wrist_control.wrists.joint import broadcast_to_joints
 
@@ -30,14 +32,23 @@ def wrist_spec(wrist_name: str = '') -> Spec:
 
 def mechanism_specs(wrist_name: str) -> list[Spec]:
     """Return the parameters that describe the geometry of one wrist."""
-    dimensions = [
-        Spec(name, *facts) for name, facts in wrist_class(wrist_name).dimensions().items()
+    kind = wrist_class(wrist_name)
+    texts = [
+        Spec(text.parameter, [] if text.names else '', text.description, NAMES * text.names)
+        for text in kind.texts().values()
     ]
+    dimensions = [Spec(name, *facts) for name, facts in kind.dimensions().items()]
     points = [
         Spec(name, [], f'{points.description}; not given when empty', 'm')
-        for name, points in wrist_class(wrist_name).point_lists().items()
+        for name, points in kind.point_lists().items()
     ]
-    return dimensions + points
+    return texts + dimensions + points
+
+
+def example(wrist_name: str) -> list[Parameter]:
+    """Return parameters with which the resolver of any wrist can be made, to be looked at."""
+    texts = wrist_class(wrist_name).texts().values()
+    return [Parameter(text.parameter, value=text.example) for text in texts if text.example]
 
 
 def mechanism(wrist_name: str, values: Mapping[str, Any]) -> Wrist:
@@ -49,18 +60,21 @@ def mechanism(wrist_name: str, values: Mapping[str, Any]) -> Wrist:
     kind = wrist_class(wrist_name)
     given = {name: values[name] for name in kind.dimensions()}
     points = {name: values[name] for name in kind.point_lists() if values[name]}
-    return kind(**given, **points)
+    texts = {name: values[text.parameter] for name, text in kind.texts().items()}
+    return kind(**given, **points, **texts)
 
 
-def specs(wrist_name: str) -> list[Spec]:
-    """Return the parameters of one wrist's resolver."""
-    joints = wrist_class(wrist_name)().joints
+def specs(wrist: Wrist) -> list[Spec]:
+    """Return the parameters of one wrist's resolver, but for those that describe it."""
+    joints = wrist.joints
     unit = 'm' if joints[0].kind == 'prismatic' else 'rad'
-    careful = [min(CAREFUL[joint.kind], joint.rate_limit) for joint in joints]
+    fastest = [
+        joint.rate_limit if math.isfinite(joint.rate_limit) else CAREFUL[joint.kind]
+        for joint in joints
+    ]
     order = ', '.join(joint.name for joint in joints)
     each = f'one for each of {order}, or one for all'
     return [
-        *mechanism_specs(wrist_name),
         Spec('rate', 100.0, 'Steps per second, from the node clock', 'Hz', 1.0, 2000.0),
         Spec(
             'command_timeout',
@@ -74,7 +88,7 @@ def specs(wrist_name: str) -> list[Spec]:
         Spec('stop_time', 0.1, 'How long the ramp to a stop takes', 's', 0.001, 10.0, live=True),
         Spec(
             'joint_rate_limits',
-            careful,
+            fastest,
             f'Fastest joint motion, {each}; .inf for no limit',
             f'{unit}/s',
             0.0,
@@ -187,6 +201,25 @@ def limited(wrist: Wrist, values: Mapping[str, Any]) -> Wrist:
     return wrist
 
 
+def check_own(wrist: Wrist, values: Mapping[str, Any]) -> None:
+    """Let a limit only narrow what the mechanism can do by itself.
+
+    Args:
+        wrist: With the limits of its own.
+        values: The parameters that the node is started with.
+
+    Raises:
+        InvalidValueError: A limit would be wider.
+    """
+    own = {
+        'joint_rate_limits': [joint.rate_limit for joint in wrist.joints],
+        'joint_lower_limits': [joint.lower for joint in wrist.joints],
+        'joint_upper_limits': [joint.upper for joint in wrist.joints],
+    }
+    given = {name: values[name] for name in own}
+    _check_none_wider(wrist, own, given, 'valid is {}, as the mechanism itself has it')
+
+
 def check_ceilings(wrist: Wrist, started: Mapping[str, Any], changed: Mapping[str, Any]) -> None:
     """Let a live limit only narrow what the node was started with: that is the ceiling.
 
@@ -200,20 +233,23 @@ def check_ceilings(wrist: Wrist, started: Mapping[str, Any], changed: Mapping[st
     Raises:
         InvalidValueError: A limit would be wider than at the start.
     """
+    limits = {name: value for name, value in changed.items() if name.endswith('_limits')}
+    valid = 'while the node runs valid is {}, as it was started: start it again with another limit'
+    _check_none_wider(wrist, started, limits, valid)
+
+
+def _check_none_wider(
+    wrist: Wrist, ceilings: Mapping[str, Any], limits: Mapping[str, Any], valid: str
+) -> None:
     joints = [joint.name for joint in wrist.joints]
-    for name in changed:
-        if not name.endswith('_limits'):
-            continue
+    for name, values in limits.items():
         is_lower = name.endswith('_lower_limits')
-        ceilings = broadcast_to_joints(name, started[name], joints)
-        wanted = broadcast_to_joints(name, changed[name], joints)
-        for joint, ceiling, value in zip(joints, ceilings, wanted, strict=True):
+        most = broadcast_to_joints(name, ceilings[name], joints)
+        wanted = broadcast_to_joints(name, values, joints)
+        for joint, ceiling, value in zip(joints, most, wanted, strict=True):
             if value < ceiling if is_lower else value > ceiling:
-                raise InvalidValueError(
-                    f'{name} is {value:g} for {joint}; while the node runs valid is '
-                    f'{"at least" if is_lower else "at most"} {ceiling:g}, as it was started: '
-                    'start it again with another limit.'
-                )
+                bound = f'{"at least" if is_lower else "at most"} {ceiling:g}'
+                raise InvalidValueError(f'{name} is {value:g} for {joint}; {valid.format(bound)}.')
 
 
 def settings(wrist: Wrist, values: Mapping[str, Any]) -> SupervisorSettings:

@@ -13,7 +13,8 @@ from wrist_control.flight import Flight, fly
 from wrist_control.operating.maneuvers import BARKER_SPEED, Maneuver, Segment, make_maneuver
 from wrist_control.resolving import SINGULAR_MARGIN
 from wrist_control.rotations import Vector, quaternion_of, rates_between, turned
-from wrist_control.wrists import WRISTS, Wrist, make_wrist, wrist_names
+from wrist_control.wrists import WRISTS, Wrist, make_wrist
+from wrist_control.wrists.plugins import plugged_in
 
 MANEUVERS = tuple(
     make_maneuver(name)
@@ -85,7 +86,7 @@ def wrists_here(tell: Callable[[str], object]) -> list[str]:
         tell: Called with a sentence for each wrist of another package that cannot be made.
     """
     found = []
-    for name in wrist_names():
+    for name in (*WRISTS, *plugged_in()):
         try:
             make_wrist(name)
         except WristError as error:

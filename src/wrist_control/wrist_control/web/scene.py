@@ -59,12 +59,12 @@ class WristScene:
 
     def show(self, wrist: Wrist) -> None:
         """Show another wrist, or the same one with other limits."""
-        same = self._wrist is not None and _mechanism(self._wrist) == _mechanism(wrist)
+        bodies = wrist.bodies(wrist.home)
+        same = self._wrist is not None and self._wrist.bodies(self._wrist.home) == bodies
         self._wrist = wrist
         if same:
             return
         self._scene.clear()
-        bodies = wrist.bodies(wrist.home)
         with self._scene:
             self._bodies = [
                 self._body(body, colour)
@@ -134,11 +134,6 @@ class WristScene:
             return
         self._tips = [*self._tips[1 - TRAIL :], point]
         self._trail.set_points(self._tips)
-
-
-def _mechanism(wrist: Wrist) -> tuple[object, ...]:
-    """Return what makes a wrist look as it does."""
-    return type(wrist), *(getattr(wrist, name) for name in type(wrist).dimensions())
 
 
 def _turned_to(hand: Pose, axis: Vector) -> tuple[float, float, float, float]:

@@ -9,7 +9,7 @@ from typing import Any
 from wrist_control.errors import InvalidValueError
 from wrist_control.wrists.joint import Joint
 from wrist_control.wrists.plugins import plugged_in, plugged_in_class
-from wrist_control.wrists.registry import WRISTS
+from wrist_control.wrists.registry import DESCRIBED, WRISTS
 from wrist_control.wrists.wrist import Clearance, Configuration, Wrist
 
 __all__ = [
@@ -23,6 +23,8 @@ __all__ = [
     'wrist_names',
 ]
 
+OWN = {**WRISTS, **DESCRIBED}
+
 
 def wrist_class(name: str) -> type[Wrist]:
     """Return the class of a wrist by its name: one of `wrist_names`.
@@ -30,20 +32,20 @@ def wrist_class(name: str) -> type[Wrist]:
     Raises:
         InvalidValueError: No wrist of that name, or one of another package that is none.
     """
-    if name in WRISTS:
-        kind: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), WRISTS[name])
+    if name in OWN:
+        kind: type[Wrist] = getattr(import_module(f'{__name__}.{name}'), OWN[name])
         return kind
     others = plugged_in()
     if name not in others:
         raise InvalidValueError(
-            f'There is no wrist {name!r}; the wrists are {", ".join([*WRISTS, *others])}.'
+            f'There is no wrist {name!r}; the wrists are {", ".join([*OWN, *others])}.'
         )
     return plugged_in_class(others[name])
 
 
 def wrist_names() -> tuple[str, ...]:
     """Return the names of all wrists: this package's, and those that other packages plug in."""
-    return (*WRISTS, *plugged_in())
+    return (*OWN, *plugged_in())
 
 
 def make_wrist(name: str, **dimensions: Any) -> Wrist:
@@ -57,7 +59,7 @@ def make_wrist(name: str, **dimensions: Any) -> Wrist:
         InvalidValueError: No wrist of that name, or a dimension it does not have or accept.
     """
     kind = wrist_class(name)
-    known = [own.name for own in fields(kind) if own.name != 'joints']
+    known = [own.name for own in fields(kind) if own.name != 'joints' or own.metadata]
     strange = [key for key in dimensions if key not in known]
     if strange:
         raise InvalidValueError(

@@ -11,6 +11,7 @@ from dataclasses import field, fields
 from typing import NamedTuple
 
 from wrist_control.errors import InvalidValueError
+from wrist_control.wrists.joint import Joint
 
 KEY = 'wrist_control'
 
@@ -49,6 +50,22 @@ class PointList(NamedTuple):
     description: str
 
 
+class Text(NamedTuple):
+    """A text that describes a mechanism, or a list of names.
+
+    Attributes:
+        description: What it is.
+        parameter: What it is called as a parameter of a node.
+        example: One that is valid.
+        names: It is a list of names.
+    """
+
+    description: str
+    parameter: str
+    example: str = ''
+    names: bool = False
+
+
 def dimension(
     default: float, description: str, unit: str, minimum: float, maximum: float = math.inf
 ) -> float:
@@ -66,6 +83,21 @@ def point_list(description: str) -> Sequence[float] | None:
     return of_the_class
 
 
+def text(description: str, parameter: str, example: str) -> str:
+    """Return a dataclass field for a `Text`; the arguments are its attributes."""
+    facts = Text(description, parameter, example)
+    # Whoever prints a wrist does not want to read the whole of it.
+    of_the_class: str = field(default='', repr=False, metadata={KEY: facts})
+    return of_the_class
+
+
+def joint_names(description: str) -> tuple[Joint, ...]:
+    """Return a dataclass field for the joints of a wrist that takes their names as well."""
+    facts = Text(description, 'joints', names=True)
+    of_the_class: tuple[Joint, ...] = field(default=(), kw_only=True, metadata={KEY: facts})
+    return of_the_class
+
+
 def dimensions_of(kind: type) -> dict[str, Dimension]:
     """Return the dimensions of a class of wrists by name."""
     found = {own.name: own.metadata.get(KEY) for own in fields(kind)}
@@ -76,3 +108,9 @@ def point_lists_of(kind: type) -> dict[str, PointList]:
     """Return the lists of points of a class of wrists by name."""
     found = {own.name: own.metadata.get(KEY) for own in fields(kind)}
     return {name: facts for name, facts in found.items() if isinstance(facts, PointList)}
+
+
+def texts_of(kind: type) -> dict[str, Text]:
+    """Return the texts of a class of wrists by name."""
+    found = {own.name: own.metadata.get(KEY) for own in fields(kind)}
+    return {name: facts for name, facts in found.items() if isinstance(facts, Text)}

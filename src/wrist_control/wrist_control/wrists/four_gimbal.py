@@ -14,6 +14,7 @@ from wrist_control.wrists import body
 from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.dimension import dimension
 from wrist_control.wrists.joint import Joint
+from wrist_control.wrists.spare_joint import increment, share_of_space
 from wrist_control.wrists.three_gimbal import ThreeGimbal
 from wrist_control.wrists.wrist import Positions, Rates, SteeringState, Wrist
 
@@ -21,8 +22,6 @@ from wrist_control.wrists.wrist import Positions, Rates, SteeringState, Wrist
 INNER = ThreeGimbal()
 # sgn(sin φ) is +1 from here up: sgn 0 must choose a side, and round-off must not choose it.
 SIDE = -1e-9
-# α̇ alone may not use up the rest of any joint's range in less than this, s.
-CUSHION = 0.25
 # It is drawn with a fork, a ring, and two forks inside it of these radii, m: forks that are open
 # to the front leave the hand room to turn.
 FORK, OUTER, MIDDLE, INMOST = 0.096, 0.084, 0.072, 0.058
@@ -88,16 +87,13 @@ class FourGimbal(Wrist):
     def choose_branch_reference(
         self, positions: Positions, factor: float, dt: float, steering_state: SteeringState
     ) -> tuple[Positions, SteeringState]:
-        """Return α after the step, by second-order Adams-Bashforth. [Barker1986], fig. 5(a).
+        """Return α after the step. [Barker1986], fig. 5(a).
 
-        Remembered is the rate at the start of the last step that moved, unscaled, so that α
-        stands still as F goes to 0. Without one, and near a position limit, Euler's rule is used.
         A pause changes nothing: the gimbals stood still too.
         """
         law, share = self._alpha_rate(positions)
-        rate = share * law
-        mean = 1.5 * rate - 0.5 * steering_state[0] if steering_state and share == 1.0 else rate
-        return (*positions[:3], positions[3] + factor * dt * mean), (rate,)
+        way, remembered = increment(law, share, factor * dt, steering_state)
+        return (*positions[:3], positions[3] + way), remembered
 
     def lost_axis(self, positions: Sequence[float]) -> Vector:
         """Return the rotation that ψ, θ and φ find hardest to make, in hand axes."""
@@ -127,26 +123,13 @@ class FourGimbal(Wrist):
         )
 
     def _alpha_rate(self, positions: Sequence[float]) -> tuple[float, float]:
-        """Return α̇ by Barker's law, rad/s, and the share of it that the joints have space for.
-
-        Turning α turns the other gimbals even when the hand stands still. Without the share
-        they would be held against a position limit, or α against its own, whatever is commanded.
-        """
+        """Return α̇ by Barker's law, rad/s, and the share of it that the joints have space for."""
         _, theta, phi, _ = positions
         law = -self.gain * math.sin(theta)  # [Barker1986], eq. (1)
         s, c = math.sin(phi), math.cos(phi)
         cosine = math.cos(theta)
         if math.copysign(1.0, cosine) * s < SIDE:
             law = -law
-        share = 1.0
         # cos θ times the joints' rates for α̇ = 1 and a hand at rest: no division at lock.
         moves = (-c, s * cosine, -c * math.sin(theta), cosine)
-        for joint, position, move in zip(self.joints, positions, moves, strict=True):
-            speed = move * law
-            bound = joint.upper if speed * cosine > 0.0 else joint.lower
-            if math.isfinite(bound):
-                space = (bound - position) * math.copysign(cosine, speed * cosine)
-                fastest = CUSHION * abs(speed)
-                if 0.0 < fastest > space:
-                    share = min(share, max(0.0, space) / fastest)
-        return law, share
+        return law, share_of_space(self.joints, positions, moves, cosine, law)

@@ -6,7 +6,7 @@ import inspect
 from importlib import metadata
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.wrists.registry import WRISTS
+from wrist_control.wrists.registry import DESCRIBED, WRISTS
 from wrist_control.wrists.wrist import Wrist
 
 GROUP = 'wrist_control.wrists'
@@ -18,7 +18,7 @@ def plugged_in() -> dict[str, metadata.EntryPoint]:
     A name that this package has itself is not among them.
     """
     found = metadata.entry_points(group=GROUP)
-    return {point.name: point for point in found if point.name not in WRISTS}
+    return {point.name: point for point in found if point.name not in {**WRISTS, **DESCRIBED}}
 
 
 def plugged_in_class(point: metadata.EntryPoint) -> type[Wrist]:

@@ -3,6 +3,9 @@
 Nothing is imported here: setup.py reads this file to name the resolver executables.
 """
 
+# Those that nobody can make without a description of the robot that has them.
+DESCRIBED = {'urdf': 'Urdf'}
+
 WRISTS = {
     'three_gimbal': 'ThreeGimbal',
     'four_gimbal': 'FourGimbal',

@@ -14,7 +14,14 @@ import numpy as np
 from wrist_control.rotations import Pose, Vector, turned
 from wrist_control.wrists import joint as joint_limits
 from wrist_control.wrists.body import ALONG_X, Body, plain_bodies
-from wrist_control.wrists.dimension import Dimension, PointList, dimensions_of, point_lists_of
+from wrist_control.wrists.dimension import (
+    Dimension,
+    PointList,
+    Text,
+    dimensions_of,
+    point_lists_of,
+    texts_of,
+)
 from wrist_control.wrists.joint import Joint, Limits
 
 Rates = tuple[float, ...]
@@ -136,6 +143,11 @@ class Wrist(ABC):
     def point_lists(cls) -> dict[str, PointList]:
         """Return the mechanism's own lists of points by name."""
         return point_lists_of(cls)
+
+    @classmethod
+    def texts(cls) -> dict[str, Text]:
+        """Return the texts that the mechanism is described by, by name."""
+        return texts_of(cls)
 
     @property
     def home(self) -> Positions:
