@@ -5,8 +5,10 @@ import os
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
+from ament_index_python.packages import get_package_share_directory
 
 from wrist_control.graph.processes import executable_file
 from wrist_interfaces.msg import WristStatus
@@ -134,10 +136,10 @@ def test_another_wrist_is_chosen_and_one_beside_it(start, browser):
     page = browser.open_whole(console.address)
     page.get_by_label('Beside it').click()
     page.get_by_role('option', name='double_hooke', exact=True).click()
-    page.locator('.card.second .figures').get_by_text('DoubleHooke').wait_for()
+    page.locator('.card.second .figures').get_by_text('double_hooke').wait_for()
     page.get_by_label('Wrist', exact=True).click()
     page.get_by_role('option', name='carpal', exact=True).click()
-    page.locator('.card .figures').get_by_text('Carpal').wait_for()
+    page.locator('.card .figures').get_by_text('carpal').wait_for()
     console.until(WristStatus.IDLE)
     assert held_until_moving(console, lambda: press(page), page.mouse.up)[1] > 0.0
     late = page.locator('.card .figures')
@@ -166,7 +168,7 @@ def test_a_limit_and_the_speed_are_set_from_the_page(start, browser):
     assert rates[1] == pytest.approx(math.radians(1.0), abs=1e-6)
     page.get_by_label('Wrist', exact=True).click()
     page.get_by_role('option', name='four_gimbal', exact=True).click()
-    page.locator('.card .figures').get_by_text('FourGimbal').wait_for()
+    page.locator('.card .figures').get_by_text('four_gimbal').wait_for()
     drag(page, speed, 0.98)
     rates = held_until_moving(
         console, lambda: page.keyboard.down('w'), lambda: page.keyboard.up('w')
@@ -189,18 +191,32 @@ def test_nothing_jumps_when_the_text_changes(start, browser, size):
         assert page.evaluate('document.documentElement.scrollHeight') <= size[1]
 
 
+PANDA = Path(get_package_share_directory('wrist_control')) / 'urdf' / 'panda.urdf'
+
+
 @needs_browser
-def test_it_joins_the_graph_that_is_there(start, browser, graph, process_environment):
+@pytest.mark.parametrize(
+    ('resolver', 'parameters', 'name'),
+    [
+        ('pitch_yaw_resolver', {}, 'pitch_yaw'),
+        ('urdf_resolver', {'robot_description': PANDA, 'tip_link': 'panda_link8'}, 'urdf'),
+    ],
+)
+def test_it_joins_the_graph_that_is_there(
+    start, browser, graph, process_environment, resolver, parameters, name
+):
     environment = {**process_environment, 'ROS_DOMAIN_ID': str(graph.domain)}
+    given = [part for item in parameters.items() for part in ('-p', '{}:={}'.format(*item))]
+    commands = ([resolver, '--ros-args', *given], ['joint_simulator'])
     nodes = [
-        subprocess.Popen([str(executable_file(name))], env=environment)
-        for name in ('pitch_yaw_resolver', 'joint_simulator')
+        subprocess.Popen([str(executable_file(name)), *arguments], env=environment)
+        for name, *arguments in commands
     ]
     try:
         console = start(start='none')
         console.until(WristStatus.IDLE)
-        page = browser.open(console.address)
-        page.locator('.figures').get_by_text('PitchYaw').wait_for()
+        page = browser.open_whole(console.address)
+        page.locator('.figures').get_by_text(name).wait_for()
         assert page.get_by_label('Beside it').count() == 0
         held_until_moving(console, lambda: press(page), page.mouse.up)
     finally:

@@ -21,15 +21,21 @@ from wrist_control.ros.running import run
 from wrist_control.web.driver import Driver
 from wrist_control.web.watched import WatchedWrist
 from wrist_control.wrists import wrist_names
+from wrist_control.wrists.registry import DESCRIBED
 
 # What the second wrist's topics begin with.
 SECOND = 'second'
 NOBODY = 'none'
 
 
+def startable() -> tuple[str, ...]:
+    """Return the names of the wrists that need nothing else to be started."""
+    return tuple(name for name in wrist_names() if name not in DESCRIBED)
+
+
 def specs() -> list[Spec]:
     """Return the parameters of the console."""
-    names = (NOBODY, *wrist_names())
+    names = (NOBODY, *startable())
     return [
         Spec('host', '127.0.0.1', 'Address that the page is served at; 0.0.0.0 is for everybody'),
         Spec(
@@ -62,7 +68,7 @@ class Console(GuardedNode):
     Attributes:
         wrists: Those that are watched: the first, and one beside it.
         driver: Who holds the stick.
-        starts_wrists: Whether the wrists are simulated ones that the console starts itself.
+        startable: The names of those that it can start; none where it starts nothing.
         names: What it has started, by slot; NOBODY where nothing is.
         values: The parameters.
     """
@@ -78,8 +84,8 @@ class Console(GuardedNode):
         """
         super().__init__('console', **node_options)
         self.values = self.declare(specs())
-        self.starts_wrists = self.values['start'] != NOBODY
-        if not self.starts_wrists and self.values['second'] != NOBODY:
+        self.startable = startable() if self.values['start'] != NOBODY else ()
+        if not self.startable and self.values['second'] != NOBODY:
             raise InvalidValueError(
                 f'second is {self.values["second"]} where the console starts no wrist: give start '
                 f'too, or run the second resolver in the namespace {SECOND}.'
@@ -104,7 +110,7 @@ class Console(GuardedNode):
 
         server = Server(self, self.values['host'], self.values['port'])
         self._close = server.close
-        if self.starts_wrists:
+        if self.startable:
             self._start(0, self.values['start'])
             self._start(1, self.values['second'])
         self.get_logger().info(f'The console is at {server.address}')

@@ -19,7 +19,7 @@ from wrist_control.web.elements import Stick, Strips
 from wrist_control.web.scene import WristScene
 from wrist_control.web.strips import row, strips
 from wrist_control.web.watched import WatchedWrist
-from wrist_control.wrists import Wrist, wrist_names
+from wrist_control.wrists import Wrist
 
 if TYPE_CHECKING:
     from wrist_control.web.console import Console
@@ -88,9 +88,9 @@ class _Page:
     def _header(self) -> None:
         with ui.element('header').classes('top'):
             ui.label('wrist_control').classes('brand')
-            if self._console.starts_wrists:
-                self._choice(0, 'Wrist', list(wrist_names()))
-                self._choice(1, 'Beside it', ['none', *wrist_names()])
+            if self._console.startable:
+                self._choice(0, 'Wrist', self._console.startable)
+                self._choice(1, 'Beside it', ('none', *self._console.startable))
             self._state = ui.label(ABSENT).classes('state')
             self._who = ui.label('').classes('who')
             ui.element('span').classes('space')
@@ -222,10 +222,9 @@ class _Page:
     def _figures(self, watched: WatchedWrist) -> str:
         assert watched.status is not None
         off = math.degrees(watched.off_path.angle) if watched.off_path else 0.0
-        name = type(watched.wrist).__name__ if watched.wrist else ''
         first = _rank(watched) == min(map(_rank, self._there())) and len(self._there()) > 1
         return (
-            f'{"★ " if first else ""}{name}   {watched.status.time_lost:.2f} s late   '
+            f'{"★ " if first else ""}{watched.name}   {watched.status.time_lost:.2f} s late   '
             f'{off:.2f}° off the path'
         )
 

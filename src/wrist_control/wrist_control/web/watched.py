@@ -47,6 +47,7 @@ class WatchedWrist:
     Attributes:
         prefix: What its topics begin with: empty, or a namespace and a slash.
         wrist: The mechanism with its present limits; None until its resolver has told.
+        name: What it is called; empty until then.
         rate_ceilings: The joint rate limits that the resolver had when it was found, rad/s or m/s.
         status: What its resolver said last; None while it is silent.
         positions: Where the joints really are, in joint order; None before they were heard.
@@ -88,6 +89,7 @@ class WatchedWrist:
         self._asked = 0.0
         self._wanted_share = self._share  # what a page has set holds for whoever comes next
         self.wrist: Wrist | None = None
+        self.name = ''
         self.rate_ceilings: tuple[float, ...] = ()
         self.status: WristStatus | None = None
         self._status_heard = 0.0
@@ -209,7 +211,7 @@ class WatchedWrist:
             self.rate_ceilings = tuple(joint.rate_limit for joint in wrist.joints)
         if self.off_path is None:
             self.off_path = OffPath(wrist)
-        self.wrist = wrist
+        self.wrist, self.name = wrist, values['wrist']
 
     def _on_status(self, message: WristStatus) -> None:
         now = time.monotonic()
