@@ -197,7 +197,7 @@ def test_anybody_who_looks_can_stop_who_drives(console, browser, page):
     other = browser.open(console.address)
     other.locator('button.stop').click()
     console.until(WristStatus.DISABLED)
-    assert page.locator('.state').inner_text() == 'DISABLED'
+    page.locator('.state[data-state=DISABLED]').wait_for()
 
 
 def test_a_page_of_somebody_elses_is_not_served(console):
