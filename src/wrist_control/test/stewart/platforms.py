@@ -53,6 +53,10 @@ def lengths_of(pose, wrist=WRIST):
     return tuple(wrist.assembly_at(pose))
 
 
+def said(lengths):
+    return [f'leg_{leg} at {length:g} m' for leg, length in enumerate(lengths, start=1)]
+
+
 def apart(one, other):
     """The distance in which proofs are stated: ‖(Δd, L Δu, L Δv)‖, m."""
     return SIZE * math.dist(stages.unknowns(one, SIZE), stages.unknowns(other, SIZE))

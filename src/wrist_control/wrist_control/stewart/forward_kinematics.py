@@ -230,6 +230,9 @@ class ForwardKinematics:
 
     def apart(self, one: Pose, other: Pose) -> float:
         """Return the distance of two poses, m, in which `Solution` states its proofs."""
-        return self.size * math.dist(
-            stages.unknowns(one, self.size), stages.unknowns(other, self.size)
-        )
+        return apart(one, other, self.size)
+
+
+def apart(one: Pose, other: Pose, size: float) -> float:
+    """Return the distance of two poses, m, in which `Solution` states its proofs."""
+    return size * math.dist(stages.unknowns(one, size), stages.unknowns(other, size))
