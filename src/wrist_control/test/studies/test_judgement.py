@@ -28,6 +28,12 @@ LINKS = [
     ('stewart', 'base_radius'),
     ('stewart', 'platform_angle'),
     ('stewart', 'base_angle'),
+    ('rotary_stewart', 'hinge_radius'),
+    ('rotary_stewart', 'hinge_offset'),
+    ('rotary_stewart', 'horn_length'),
+    ('rotary_stewart', 'rod_length'),
+    ('rotary_stewart', 'platform_radius'),
+    ('rotary_stewart', 'platform_angle'),
 ]
 
 

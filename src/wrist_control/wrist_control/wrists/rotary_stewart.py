@@ -154,8 +154,12 @@ class RotaryStewart(Platform):
 
     def kinematics_at(self, positions: Sequence[float]) -> tuple[ForwardKinematics, Rods]:
         """Return the forward kinematics with the horns there, and the rods' lengths, m."""
-        tips = self.tips(positions)
-        return ForwardKinematics(self.platform, tips, self.size, self.home_pose), self._rods
+        return self._at_home.moved_to(self.tips(positions)), self._rods
+
+    @cached_property
+    def _at_home(self) -> ForwardKinematics:
+        tips = self.tips(self.home)
+        return ForwardKinematics(self.platform, tips, self.size, self.home_pose)
 
     @cached_property
     def _rods(self) -> Rods:
