@@ -14,10 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wrist_control.rotations import Pose, Vector, to_forearm, turned
+from wrist_control.rotations import Pose, Vector, product, to_forearm, unit
 from wrist_control.stewart.certificate import (
     BRANCH_LIMIT,
-    NOTHING_PROVED,
     ROUNDING,
     Proof,
     beta_nearby,
@@ -154,12 +153,15 @@ def solve_general(
             if here is None:
                 return None
             inverse = here.inverse
-            proof = NOTHING_PROVED
-            if left <= SHARP:
-                proof = kantorovich(here.beta, here.norm * (left + floor))
-            if done or (here.beta + 0.5) * proof.error**2 <= here.norm * floor:
-                after = pose if done else _moved(pose, (inverse @ missing).tolist())
-                return _proved(pose, after, start, count, here, proof, floor)
+            if done or left <= SHARP:
+                twist = (inverse @ missing).tolist()
+                proof = kantorovich(here.beta, size_of(twist) + here.norm * floor)
+                if done or (here.beta + 0.5) * proof.error**2 <= here.norm * floor:
+                    away = 0.0 if done else size_of(twist)
+                    if not done:
+                        proof, pose = after_step(here, proof, away, floor), _moved(pose, twist)
+                    beta = beta_nearby(here.beta, away)
+                    return _proved(pose, start, count, proof, beta, here.inverse)
         if left > FAR_OFF:
             missing = _by_lengths(goal, missing)
         twist = (inverse @ missing).tolist()
@@ -173,8 +175,15 @@ def _moved(pose: Pose, twist: Sequence[float]) -> Pose:
     vx, vy, vz, p, q, r = twist
     dx, dy, dz = to_forearm(pose.quaternion, (vx, vy, vz))
     x, y, z = pose.position
-    turn = turned(pose.quaternion, (p, q, r), 1.0)
+    # By 2 atan(|ω| / 2): as the turn itself to its second order, and without a sine.
+    turn = unit(product(pose.quaternion, (1.0, 0.5 * r, 0.5 * q, 0.5 * p)))
     return make_tuple(Pose, (turn, (x + dx, y + dy, z + dz)))
+
+
+def size_of(twist: Sequence[float]) -> float:
+    """Return how far a small twist moves the twelve unknowns: ‖ΔR‖ = √2 |ω|."""
+    vx, vy, vz, p, q, r = twist
+    return math.sqrt(vx * vx + vy * vy + vz * vz + 2.0 * (p * p + q * q + r * r))
 
 
 def _by_lengths(goal: Six[float], missing: Sequence[float]) -> list[float]:
@@ -186,27 +195,25 @@ def _by_lengths(goal: Six[float], missing: Sequence[float]) -> list[float]:
     return found
 
 
-def _proved(
-    origin: Pose,
-    pose: Pose,
-    start: Unknowns,
-    count: int,
-    here: Linearisation,
-    proof: Proof,
-    floor: float,
-) -> Track:
-    """Return what is proved of a pose one step after where the equations were linearised.
+def after_step(here: Linearisation, proof: Proof, step: float, floor: float) -> Proof:
+    """Return what is proved around the end of a step, of what is proved where it begins: (S15).
 
-    (S15): of the step's end, β e² and half of that for the turn are left, and rounding.
+    Args:
+        here: Where the step begins.
+        proof: Of that.
+        step: How far it moves the unknowns.
+        floor: Rounding of H.
     """
+    error = (here.beta + 0.5) * proof.error**2 + (here.norm + 1.0) * floor
+    return make_tuple(Proof, (error, max(proof.unique - step, 0.0)))
+
+
+def _proved(
+    pose: Pose, start: Unknowns, count: int, proof: Proof, beta: float, inverse: np.ndarray
+) -> Track:
     at = unknowns(pose, 1.0)
-    away = 0.0 if pose is origin else _distance(unknowns(origin, 1.0), at)
-    if pose is not origin:
-        error = (here.beta + 0.5) * proof.error**2 + (here.norm + 1.0) * floor
-        proof = Proof(error, max(proof.unique - away, 0.0))
-    beta = beta_nearby(here.beta, away)
     followed = beta * (_distance(start, at) + proof.error) <= BRANCH_LIMIT
-    return Track(at, count, proof, followed, Tangent(at, here.inverse))
+    return make_tuple(Track, (at, count, proof, followed, make_tuple(Tangent, (at, inverse))))
 
 
 def linearised(known: Platforms, vectors: Sequence[Vector]) -> Linearisation | None:
