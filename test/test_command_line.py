@@ -16,6 +16,9 @@ from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.rotary_stewart_forward_kinematics import (
+    RotaryStewartForwardKinematics,
+)
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_control.ros.command_line import what_is_wrong
 from wrist_interfaces.msg import WristStatus
@@ -24,6 +27,7 @@ OTHERS = {
     'joint_simulator': JointSimulator,
     'operator': Operator,
     'physics_simulator': PhysicsSimulator,
+    'rotary_stewart_forward_kinematics': RotaryStewartForwardKinematics,
     'stewart_forward_kinematics': StewartForwardKinematics,
 }
 EXECUTABLES = [*OTHERS, *(f'{wrist}_resolver' for wrist in WRISTS)]

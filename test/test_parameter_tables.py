@@ -10,12 +10,16 @@ from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.rotary_stewart_forward_kinematics import (
+    RotaryStewartForwardKinematics,
+)
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 
 TEXT = (Path(__file__).resolve().parents[1] / 'docs' / 'interfaces.md').read_text()
 SECTIONS = {
     'Parameters of every resolver': (Resolver, 'three_gimbal'),
     'Parameters of stewart_forward_kinematics': (StewartForwardKinematics,),
+    'Parameters of rotary_stewart_forward_kinematics': (RotaryStewartForwardKinematics,),
     'Parameters of the operator': (Operator,),
     'Parameters of the joint simulator': (JointSimulator,),
     'Parameters of the physics simulator': (PhysicsSimulator,),

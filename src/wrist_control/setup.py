@@ -17,6 +17,7 @@ NODES = [
     'joint_simulator',
     'operator',
     'physics_simulator',
+    'rotary_stewart_forward_kinematics',
     'stewart_forward_kinematics',
     'wrist_resolver',
 ]

@@ -6,7 +6,7 @@ import pytest
 
 from wrist_control import InvalidValueError, make_wrist
 from wrist_control.rotations import Pose, turned
-from wrist_control.wrists.platform import anchors, level, turn_of
+from wrist_control.wrists.platform import anchors, turn_of
 
 PLATFORMS = {name: make_wrist(name) for name in ('stewart', 'rotary_stewart')}
 every_platform = pytest.mark.parametrize('wrist', PLATFORMS.values(), ids=PLATFORMS)
@@ -58,4 +58,3 @@ def test_given_points_stand_for_the_ring():
 def test_a_twist_that_does_not_turn_has_the_platforms_normal():
     assert turn_of((1.0, 2.0, 3.0, 0.0, 0.0, 0.0)) == (0.0, 0.0, 1.0)
     assert turn_of((0.0, 0.0, 0.0, 3.0, 0.0, -4.0)) == (0.6, 0.0, -0.8)
-    assert level(0.2).point((1.0, 0.0, 0.0)) == (1.0, 0.0, 0.2)

@@ -28,9 +28,6 @@ MEANINGS = {
     'published: ',
 }
 AT_HOME = 'The pose is proved to be the one that home leads to.'
-NO_START = (
-    'There is no pose to go on from, and the readings alone may fit several; none is published: '
-)
 
 
 class ObserverSettings(NamedTuple):
@@ -114,7 +111,10 @@ class Observer:
             f'drive it home, until every {wrist.drive} is within {wrist.far:g} {wrist.unit} of '
             f'its {wrist.measured} there.'
         )
-        self._doubt = NO_START + self._homewards
+        self._doubt = (
+            f'There is no pose to go on from, and the {wrist.measured}s alone may fit several; '
+            f'none is published: {self._homewards}'
+        )
 
     def take(self, names: Sequence[str], positions: Sequence[float], stamp: float) -> Observed:
         """Return what a reading says of the pose; only a proved one is gone on from.
@@ -266,7 +266,8 @@ class Observer:
     def _may_have_crossed(self, dt: float) -> str:
         return (
             f'In the {abs(dt):.3g} s since the last proved pose the platform may have crossed a '
-            f'lock, and readings cannot tell the side; none is published: {self._homewards}'
+            f'lock, and {self._wrist.measured}s cannot tell the side; none is published: '
+            f'{self._homewards}'
         )
 
 

@@ -16,7 +16,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from wrist_control.errors import InvalidValueError, UnreachableError
-from wrist_control.rotations import IDENTITY, Pose, Vector, to_forearm, turned
+from wrist_control.rotations import Pose, Vector, to_forearm, turned
 from wrist_control.stewart.forward_kinematics import ForwardKinematics, Status
 from wrist_control.stewart.geometry import (
     SHORTEST,
@@ -80,6 +80,7 @@ class Platform(Wrist):
         rods: What the operator knows the rods by.
         drive: What the operator knows the joints by, without their numbers.
         measured: What a joint's reading is.
+        unit: What it is in.
     """
 
     twist_size: ClassVar[Literal[3, 6]] = 6
@@ -88,6 +89,7 @@ class Platform(Wrist):
     rods: ClassVar[str]
     drive: ClassVar[str]
     measured: ClassVar[Literal['length', 'angle']]
+    unit: ClassVar[Literal['m', 'rad']]
 
     def __post_init__(self) -> None:
         """Settle the points, and refuse rods that hold the platform at no pose."""
@@ -249,11 +251,6 @@ class Platform(Wrist):
                 )
         return self.held(positions, pose)
 
-    @property
-    def unit(self) -> str:
-        """What joint positions are given in."""
-        return 'm' if self.measured == 'length' else 'rad'
-
     def check_readings(self, readings: Sequence[float]) -> None:
         """Refuse what cannot be the positions of joints.
 
@@ -288,11 +285,6 @@ class Platform(Wrist):
 
 
 Rods = tuple[float, float, float, float, float, float]
-
-
-def level(height: float) -> Pose:
-    """Return the pose of a platform that is level and centred, m above the base."""
-    return Pose(IDENTITY, (0.0, 0.0, height))
 
 
 def turn_of(twist: Sequence[float] | np.ndarray) -> Vector:

@@ -17,7 +17,7 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from wrist_control.errors import UnreachableError
-from wrist_control.rotations import Pose, Vector, to_hand
+from wrist_control.rotations import IDENTITY, Pose, Vector, to_hand
 from wrist_control.stewart.forward_kinematics import ForwardKinematics
 from wrist_control.stewart.geometry import Anchors, checked_anchors
 from wrist_control.wrists import body
@@ -31,7 +31,6 @@ from wrist_control.wrists.platform import (
     Points,
     Rods,
     anchors,
-    level,
     turn_of,
 )
 from wrist_control.wrists.wrist import Clearance, Rates, soft_edge
@@ -108,6 +107,7 @@ class RotaryStewart(Platform):
     rods: ClassVar[str] = 'rod'
     drive: ClassVar[str] = 'servo'
     measured: ClassVar[Literal['length', 'angle']] = 'angle'
+    unit: ClassVar[Literal['m', 'rad']] = 'rad'
 
     @property
     def reach(self) -> float:
@@ -123,7 +123,7 @@ class RotaryStewart(Platform):
     @cached_property
     def home_pose(self) -> Pose:
         """Level and centred at the home height."""
-        return level(self.home_height)
+        return Pose(IDENTITY, (0.0, 0.0, self.home_height))
 
     @cached_property
     def horns(self) -> tuple[Horn, ...]:

@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from wrist_control.rotations import Pose, Vector
+from wrist_control.rotations import IDENTITY, Pose, Vector
 from wrist_control.stewart.forward_kinematics import ForwardKinematics
 from wrist_control.stewart.geometry import Anchors, length
 from wrist_control.units import INCH
@@ -24,7 +24,6 @@ from wrist_control.wrists.platform import (
     Points,
     Rods,
     anchors,
-    level,
     turn_of,
 )
 from wrist_control.wrists.wrist import Clearance, Rates
@@ -72,6 +71,7 @@ class Stewart(Platform):
     rods: ClassVar[str] = 'leg'
     drive: ClassVar[str] = 'leg'
     measured: ClassVar[Literal['length', 'angle']] = 'length'
+    unit: ClassVar[Literal['m', 'rad']] = 'm'
     reach: ClassVar[float] = 1.0
 
     @cached_property
@@ -98,7 +98,7 @@ class Stewart(Platform):
     @cached_property
     def home_pose(self) -> Pose:
         """Level and centred at the home height."""
-        return level(self.home_height)
+        return Pose(IDENTITY, (0.0, 0.0, self.home_height))
 
     def inverse(self, pose: Pose, near: Sequence[float]) -> Assembly:
         """Return the leg lengths of a pose; there is one set only, and `near` is not needed.
