@@ -125,7 +125,7 @@ EQUIVALENT = (
     ),
     Equivalent(
         'stewart/general.py',
-        'if left <= 0.125 * floor or floor > left > 0.5 * last:',
+        'done = left <= 0.125 * floor or floor > left > 0.5 * last',
         'left <= 0.125 * floor',
         '(left < 0.125 * floor)',
         'what is left is never just that, and one more correction would cost time alone',

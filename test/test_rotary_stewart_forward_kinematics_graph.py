@@ -117,9 +117,11 @@ def test_the_node_of_a_reachy_mini_takes_its_makers_angles(graph):
     watched.begin()
     pose = Pose(turned(HOME.quaternion, (0.0, 0.2, 0.0), 1.0), (0.0, 0.005, 0.1053667))
     angles = (0.6717614, -0.670853, 0.8525178, -0.9499542, 0.7426939, -0.6387469)
-    status = watched.status_of(angles, after=0.02)
-    assert status.status == ForwardKinematicsStatus.CONVERGED
-    assert_same_pose(pose_of(watched.poses[-1].pose.pose), pose, 2e-6)
+    for share in np.linspace(0.1, 1.0, 10):
+        reading = (1.0 - share) * np.array(watched.home) + share * np.array(angles)
+        status = watched.status_of(reading, after=0.02)
+        assert status.status == ForwardKinematicsStatus.CONVERGED
+    assert_same_pose(pose_of(watched.poses[-1].pose.pose), pose, 1e-5)
 
 
 @pytest.mark.parametrize(

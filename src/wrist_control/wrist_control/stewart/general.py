@@ -102,7 +102,8 @@ def scaled(platform: Anchors, base: Anchors, size: float) -> Platforms:
 
 def moved(known: Platforms, base: Anchors) -> Platforms:
     """Return the same platform on other base anchors, m."""
-    return known._replace(base=_scaled(base, known.size))
+    platform, _, size, per_leg, constant = known
+    return make_tuple(Platforms, (platform, _scaled(base, size), size, per_leg, constant))
 
 
 def _scaled(points: Anchors, size: float) -> Anchors:
@@ -234,7 +235,7 @@ def linearised(known: Platforms, vectors: Sequence[Vector]) -> Linearisation | N
     # ‖second‖² is the largest eigenvalue λ of its Gram matrix, and λ⁴ at most the sum of all.
     largest = math.sqrt(math.sqrt(float(np.vdot(twice, twice))))
     beta = 0.5 * math.sqrt(largest + 1.0)
-    whole = float(np.vdot(weighted, weighted)) + float(gram.trace()) + 1.0
+    whole = float(np.vdot(weighted, weighted)) + float(np.vdot(second, second)) + 1.0
     return Linearisation(0.5 * inverse, beta, 0.5 * math.sqrt(whole))
 
 
