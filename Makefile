@@ -72,6 +72,12 @@ dexterity: setup  ## map where each wrist can turn the hand well
 judge: setup-physics  ## let MuJoCo move every wrist, and compare it with our kinematics
 	@./env python3 -m wrist_control.studies.judge
 
+.PHONY: reachy
+reachy: setup  ## compare with the kinematics of a Reachy Mini's maker, fetched into out/reachy
+	@./env python3 -m pip install --quiet --no-deps --require-hashes --only-binary :all: \
+	  --upgrade --target out/reachy -r scripts/reachy_mini.txt
+	@./env python3 -m wrist_control.studies.reachy_mini out/reachy
+
 .PHONY: gallery
 gallery: setup  ## draw every wrist as its mechanism, still and in motion
 	@./env python3 -m wrist_control.studies.gallery

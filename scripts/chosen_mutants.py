@@ -26,13 +26,13 @@ class Chosen(NamedTuple):
 
 NODE, SETTINGS = 'nodes/resolver.py', 'nodes/resolver_settings.py'
 OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
-INPUTS = 'nodes/resolver_inputs.py'
 SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
 SEARCH, FEEDBACK = 'resolving/search.py', 'resolving/feedback.py'
 WINDOWS, FEASIBLE = 'resolving/rate_windows.py', 'resolving/feasible.py'
-EASING = 'resolving/easing.py'
+INPUTS, EASING = 'nodes/resolver_inputs.py', 'resolving/easing.py'
 JOYSTICK, KEYS = 'operating/joystick.py', 'operating/keys.py'
-STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
+PLATFORM, STEWART = 'wrists/platform.py', 'wrists/stewart.py'
+FOUR, THREE = 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 SPARE, AXES, URDF = 'wrists/spare_joint.py', 'wrists/three_axes.py', 'wrists/urdf.py'
 CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
 RECEIPT = 'receipt_time=self._step_clock.receipt_time()'
@@ -205,11 +205,11 @@ CHOSEN = tuple(
         ('wrists/wrist.py', 'stop: float = 0.02', 'stop: float = 0.002', 'too near to the edge'),
         ('wrists/wrist.py', 'horizon: float = 0.1', 'horizon: float = 1.0', 'the edge is glue'),
         ('wrists/wrist.py', 'horizon: float = 0.1', 'horizon: float = 0.01', 'the edge is a wall'),
-        (STEWART, 'EDGE = 0.01', 'EDGE = 0.1', 'workspace is lost'),
-        (STEWART, 'EDGE = 0.01', 'EDGE = 0.001', 'too near to lock'),
-        (STEWART, 'HORIZON = 0.5', 'HORIZON = 5.0', 'lock is glue'),
-        (STEWART, 'HORIZON = 0.5', 'HORIZON = 0.05', 'lock is a wall'),
-        (STEWART, 'FAR = 0.02', 'FAR = 0.2', 'the platform is taken for another assembly'),
+        (PLATFORM, 'EDGE = 0.01', 'EDGE = 0.1', 'workspace is lost'),
+        (PLATFORM, 'EDGE = 0.01', 'EDGE = 0.001', 'too near to lock'),
+        (PLATFORM, 'HORIZON = 0.5', 'HORIZON = 5.0', 'lock is glue'),
+        (PLATFORM, 'HORIZON = 0.5', 'HORIZON = 0.05', 'lock is a wall'),
+        (STEWART, '[float] = 0.02', '[float] = 0.2', 'the platform is taken for another assembly'),
         ('stewart/measurement.py', 'SLACK = 1e-9', 'SLACK = 1e-3', 'impossible lengths pass'),
         (
             'stewart/forward_kinematics.py',

@@ -125,7 +125,7 @@ EQUIVALENT = (
     ),
     Equivalent(
         'stewart/general.py',
-        'if left <= 0.125 * floor or floor > left > 0.5 * last:',
+        'done = left <= 0.125 * floor or floor > left > 0.5 * last',
         'left <= 0.125 * floor',
         '(left < 0.125 * floor)',
         'what is left is never just that, and one more correction would cost time alone',
@@ -163,9 +163,9 @@ EQUIVALENT = (
     ),
     Equivalent(
         'resolving/platform_observer.py',
-        'check_possible(self._wrist.platform, self._wrist.base, lengths)',
-        'check_possible(self._wrist.platform, self._wrist.base, lengths)',
-        '(check_possible(self._wrist.base, self._wrist.platform, lengths))',
+        'check_possible(kinematics.platform, kinematics.base, lengths, self._said(readings))',
+        'check_possible(kinematics.platform, kinematics.base, lengths, self._said(readings))',
+        '(check_possible(kinematics.base, kinematics.platform, lengths, self._said(readings)))',
         'two legs differ by no more than their anchors are apart, on either side',
     ),
     Equivalent(

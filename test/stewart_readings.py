@@ -19,9 +19,11 @@ HOME = tuple(WRIST.home)
 class Watched:
     """A forward-kinematics node, and everything that it says."""
 
+    kind, names, home = StewartForwardKinematics, LEGS, HOME
+
     def __init__(self, graph, **parameters):
         self.graph = graph
-        self.node = graph.start(StewartForwardKinematics, **parameters)
+        self.node = graph.start(self.kind, **parameters)
         self.poses = graph.listen(PoseWithCovarianceStamped, 'platform_pose')
         self.twists = graph.listen(TwistStamped, 'platform_twist')
         self.statuses = graph.listen(ForwardKinematicsStatus, 'forward_kinematics_status')
@@ -30,11 +32,11 @@ class Watched:
         graph.until(lambda: graph.outside.count_publishers('forward_kinematics_status'))
         self.stamp = 10.0
 
-    def send(self, lengths, names=LEGS, velocities=(), after=0.1):
+    def send(self, positions, names=None, velocities=(), after=0.1):
         self.stamp += after
         message = JointState(
-            name=list(names),
-            position=[float(x) for x in lengths],
+            name=list(self.names if names is None else names),
+            position=[float(x) for x in positions],
             velocity=[float(x) for x in velocities],
         )
         nanoseconds = round(self.stamp * 1e9)
@@ -50,7 +52,9 @@ class Watched:
         return self.statuses[-1]
 
     def begin(self):
-        self.graph.until(lambda: self.status_of(HOME).status == ForwardKinematicsStatus.CONVERGED)
+        self.graph.until(
+            lambda: self.status_of(self.home).status == ForwardKinematicsStatus.CONVERGED
+        )
         return len(self.poses), len(self.twists)
 
     def part(self, ending):

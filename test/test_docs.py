@@ -15,6 +15,7 @@ from wrist_control.nodes import (
     keyboard,
     operator,
     physics_settings,
+    rotary_stewart_forward_kinematics,
     stewart_forward_kinematics,
 )
 from wrist_control.nodes.resolver import Resolver
@@ -175,7 +176,14 @@ def test_the_document_of_the_wrists_is_what_the_code_says(tmp_path):
 
 @pytest.mark.parametrize(
     'node',
-    [operator, keyboard, joint_simulator, physics_settings, stewart_forward_kinematics],
+    [
+        operator,
+        keyboard,
+        joint_simulator,
+        physics_settings,
+        stewart_forward_kinematics,
+        rotary_stewart_forward_kinematics,
+    ],
 )
 def test_every_other_parameter_is_in_the_documents(node):
     missing = [spec.name for spec in node.SPECS if f'`{spec.name}`' not in PARAMETERS]

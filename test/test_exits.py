@@ -159,6 +159,7 @@ def test_an_error_of_the_middleware_itself_ramps_a_moving_hand_to_a_zero(graph):
         'joint_simulator',
         'physics_simulator',
         'stewart_forward_kinematics',
+        'rotary_stewart_forward_kinematics',
     ],
 )
 def test_every_node_ends_well_whenever_it_is_stopped(process_environment, executable, clock):

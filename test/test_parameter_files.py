@@ -15,6 +15,9 @@ from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.rotary_stewart_forward_kinematics import (
+    RotaryStewartForwardKinematics,
+)
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_control.ros.command_line import silent_files
 
@@ -22,6 +25,7 @@ CONFIG = Path(__file__).resolve().parents[1] / 'config'
 NODES = [(Resolver, wrist) for wrist in WRISTS]
 NODES += [(JointSimulator,), (PhysicsSimulator,), (Operator,), (StewartForwardKinematics,)]
 NODES += [(Keyboard,)]
+NODES += [(RotaryStewartForwardKinematics,)]
 IDS = [node[-1] if node[1:] else node[0].__name__ for node in NODES]
 FILES = sorted(CONFIG.glob('*.yaml'))
 every_node = pytest.mark.parametrize('node', NODES, ids=IDS)
@@ -97,6 +101,7 @@ def test_a_shipped_file_loads_into_the_nodes_that_run_with_it(graph, file):
     known = {kind.__name__: (kind,) for kind in (JointSimulator, Operator)}
     names = {'joint_simulator': known['JointSimulator'], 'operator': known['Operator']}
     names['stewart_forward_kinematics'] = (StewartForwardKinematics,)
+    names['rotary_stewart_forward_kinematics'] = (RotaryStewartForwardKinematics,)
     names['physics_simulator'] = (PhysicsSimulator,)
     names |= {f'{wrist}_resolver': (Resolver, wrist) for wrist in WRISTS}
     keys = {key.rpartition('/')[2] for key in yaml.safe_load(file.read_text())} - {'**'}

@@ -11,6 +11,9 @@ from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.rotary_stewart_forward_kinematics import (
+    RotaryStewartForwardKinematics,
+)
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_control.web.console import Console
 
@@ -18,6 +21,7 @@ TEXT = (Path(__file__).resolve().parents[1] / 'docs' / 'interfaces.md').read_tex
 SECTIONS = {
     'Parameters of every resolver': (Resolver, 'three_gimbal'),
     'Parameters of stewart_forward_kinematics': (StewartForwardKinematics,),
+    'Parameters of rotary_stewart_forward_kinematics': (RotaryStewartForwardKinematics,),
     'Parameters of the operator': (Operator,),
     'Parameters of the keyboard': (Keyboard,),
     'Parameters of the joint simulator': (JointSimulator,),

@@ -15,6 +15,12 @@ from wrist_interfaces.msg import WristStatus
 from .physics_flown import RATE, PhysicsFlown
 
 LOADED = {'payload': 0.5}
+# A head on rods of 85 mm carries a tenth of that, and no links of 0.2 kg, as every wrist has here:
+# under those its servos sag so far at the edge of its workspace that it goes through lock.
+LOADS = {'rotary_stewart': {'payload': 0.05, 'balanced': True}}
+# How far a joint turns, or slides, at least: platforms meet their edges on the way.
+LEAST_TURNED = {'stewart': 0.02, 'rotary_stewart': 0.4}
+PLATFORMS = ('stewart', 'rotary_stewart')
 # How far the hand is from where it was told to be at most, in turn, rad, and in place, m.
 TURN, PLACE = 0.015, 0.001
 # Nearer to lock than this margin the Stewart platform's legs no longer hold it well: what they
@@ -36,16 +42,16 @@ def gentlest_stop(wrist):
 def test_every_wrist_flies_the_stick_and_the_basic_test_and_the_hand_is_where_it_is_told(
     graph, wrist
 ):
-    flown = PhysicsFlown(graph, wrist, **LOADED)
+    flown = PhysicsFlown(graph, wrist, **LOADS.get(wrist, LOADED))
     flown.resolve()
     flown.fly('stick', 64)
     flown.fly('basic_test', 300)
     states = {status.state for status in flown.heard['wrist_status']}
     assert WristStatus.FAULT not in states
     turned = [state.position for state in flown.heard['joint_states']]
-    assert np.ptp(turned, axis=0).max() > (0.02 if wrist == 'stewart' else 0.7)
+    assert np.ptp(turned, axis=0).max() > LEAST_TURNED.get(wrist, 0.7)
     _, turn, place, margin = flown.errors().T
-    near_lock = (margin < NEAR_LOCK) & (wrist == 'stewart')
+    near_lock = (margin < NEAR_LOCK) & (wrist in PLATFORMS)
     assert np.count_nonzero(~near_lock) > 100
     assert turn[~near_lock].max() < TURN
     assert place[~near_lock].max() < PLACE

@@ -37,6 +37,7 @@ def test_every_executable_of_the_contract_is_installed():
     resolvers = {f'{wrist}_resolver' for wrist in WRISTS}
     others = {'operator', 'joint_simulator', 'physics_simulator', 'stewart_forward_kinematics'}
     others |= {'keyboard'}
+    others |= {'rotary_stewart_forward_kinematics'}
     assert others | resolvers <= names
 
 

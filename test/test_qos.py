@@ -13,6 +13,9 @@ from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.nodes.rotary_stewart_forward_kinematics import (
+    RotaryStewartForwardKinematics,
+)
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_interfaces.msg import WristStatus
 
@@ -22,6 +25,7 @@ NODES = (
     (JointSimulator,),
     (PhysicsSimulator,),
     (StewartForwardKinematics,),
+    (RotaryStewartForwardKinematics,),
 )
 OUR_TOPICS = {
     '/cmd_vel',

@@ -29,6 +29,7 @@ CONTRACT = {
     'pitch_yaw': 'theta_1 theta_2',
     'five_bar': 'theta_1 theta_2',
     'stewart': 'leg_1 leg_2 leg_3 leg_4 leg_5 leg_6',
+    'rotary_stewart': 'servo_1 servo_2 servo_3 servo_4 servo_5 servo_6',
 }
 PITCH = 0.1
 MESSAGES = Path(__file__).resolve().parents[1] / 'src' / 'wrist_interfaces' / 'msg'

@@ -29,8 +29,8 @@ BAD = {
     'inf': (changed(2, math.inf), LEGS, 'not finite', 'leg_3 is inf'),
     'zero': (changed(3, 0.0), LEGS, 'impossible length', 'leg_4 is 0.0'),
     'negative': (changed(3, -0.5), LEGS, 'impossible length', 'leg_4 is -0.5'),
-    'too long': (changed(4, 0.75), LEGS, 'outside its limits', 'leg_5 is 0.75 m long; valid'),
-    'too short': (changed(4, 0.25), LEGS, 'outside its limits', 'leg_5 is 0.25 m long; valid'),
+    'too long': (changed(4, 0.75), LEGS, 'outside its limits', 'leg_5 is at 0.75 m; valid'),
+    'too short': (changed(4, 0.25), LEGS, 'outside its limits', 'leg_5 is at 0.25 m; valid'),
     'a jump': (changed(1, 0.56), LEGS, 'jump', 'leg_2 jumped by 0.0691703 m in 0.1 s'),
 }
 

@@ -14,7 +14,7 @@ from wrist_control.wrists import WRISTS
 SUPERVISED = 0.25
 # Steps of one wrist against those of the others: a platform that searches its assemblies takes a
 # hundred times as long as a chain of gimbals.
-SHARES = {'stewart': 0.15}
+SHARES = {'stewart': 0.15, 'rotary_stewart': 0.05}
 # Steps of one part: what is done in one go.
 PART = 4000
 

@@ -19,6 +19,7 @@ NODES = [
     'keyboard',
     'operator',
     'physics_simulator',
+    'rotary_stewart_forward_kinematics',
     'stewart_forward_kinematics',
     'wrist_resolver',
 ]

@@ -28,6 +28,11 @@ KINEMATICS = (
     'assembly_at',
     'resolve_assembly',
     'forward_kinematics',
+    'kinematics_at',
+    'home_pose',
+    'held',
+    'solve',
+    'tips',
 )
 SOURCES = [
     path
@@ -96,7 +101,7 @@ def test_servos_are_called_and_ordered_like_the_joints(name):
         assert mechanism.positions == pytest.approx(target, abs=1e-9)
 
 
-@pytest.mark.parametrize('name', ['double_hooke', 'carpal', 'stewart'])
+@pytest.mark.parametrize('name', ['double_hooke', 'carpal', 'stewart', 'rotary_stewart'])
 def test_a_mechanism_is_as_large_as_its_wrist(name):
     wrist = make_wrist(name)
     twice = make_wrist(

@@ -12,7 +12,6 @@ from wrist_control.errors import RefusedError
 from wrist_control.resolving.platform_observer import Observer, ObserverSettings
 from wrist_control.rotations import IDENTITY, Pose, about_z, turned
 from wrist_control.stewart.forward_kinematics import Status
-from wrist_control.wrists.stewart import FAR
 
 WRIST = make_wrist('stewart')
 FK = WRIST.forward_kinematics
@@ -66,7 +65,7 @@ def test_beyond_lock_no_pose_counts_until_the_platform_is_home_again():
     assert back[-1].solution.status == Status.CONVERGED
     first = statuses(back).index(Status.CONVERGED)
     off = [abs(length - WRIST.home[0]) for length in WRIST.assembly_at(yaw(126.0, 0.0)[first])]
-    assert 0.9 * FAR < max(off) <= FAR
+    assert 0.9 * WRIST.far < max(off) <= WRIST.far
     # In doubt, too, each answer is sought near the one before: only beside lock that takes long.
     assert np.mean([observed.solution.iterations for observed in there + back]) < 20
 
@@ -97,7 +96,7 @@ def test_after_lock_no_pose_that_counts_is_another_than_the_true_one(direction, 
     for pose in poses:
         legs = WRIST.assembly_at(pose)
         if legs.hadamard_ratio > 0.0:  # what is taken for granted: home's lengths are home's
-            assume(max(abs(length - WRIST.home[0]) for length in legs) > FAR)
+            assume(max(abs(length - WRIST.home[0]) for length in legs) > WRIST.far)
     fly(observer(), poses + poses[::-1])
 
 

@@ -71,7 +71,7 @@ def test_a_length_at_its_limit_counts_and_one_beyond_does_not(side):
     observer = Observer(wrist, ObserverSettings([1e-4], 0.5, 1.0))
     assert observer.take(NAMES, WRIST.home, 0.0).solution.status == Status.CONVERGED
     beyond = home + (1e-4 if side == 'upper' else -1e-4)
-    with pytest.raises(RefusedError, match=r'leg_1 is .* m long; valid is') as refused:
+    with pytest.raises(RefusedError, match=r'leg_1 is at .* m; valid is') as refused:
         observer.take(NAMES, (beyond, *WRIST.home[1:]), 0.1)
     assert refused.value.reason == 'outside its limits'
 

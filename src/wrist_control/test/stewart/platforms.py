@@ -53,17 +53,21 @@ def lengths_of(pose, wrist=WRIST):
     return tuple(wrist.assembly_at(pose))
 
 
+def said(lengths):
+    return [f'leg_{leg} at {length:g} m' for leg, length in enumerate(lengths, start=1)]
+
+
 def apart(one, other):
     """The distance in which proofs are stated: ‖(Δd, L Δu, L Δv)‖, m."""
     return SIZE * math.dist(stages.unknowns(one, SIZE), stages.unknowns(other, SIZE))
 
 
-def exactly(lengths, pose):
+def exactly(lengths, pose, platform=WRIST.platform, base=WRIST.base):
     """Polish a pose to about 19 digits: Newton steps with residuals in extended precision.
 
     Returns position and rotation matrix (platform to base) as extended arrays.
     """
-    p, b = (np.array(x, dtype=np.longdouble) for x in (WRIST.platform, WRIST.base))
+    p, b = (np.array(x, dtype=np.longdouble) for x in (platform, base))
     wanted = np.array(lengths, dtype=np.longdouble)
     a1, a2, a3, a4 = (np.longdouble(x) for x in pose.quaternion)
     q, d = np.array([a1, a4, a3, a2]), np.array(pose.position, dtype=np.longdouble)

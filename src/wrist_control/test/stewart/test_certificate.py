@@ -16,6 +16,7 @@ from wrist_control.stewart.certificate import (
     beta_nearby,
     kantorovich,
 )
+from wrist_control.stewart.geometry import legs
 
 WRIST = make_wrist('stewart')
 SIZE = WRIST.size
@@ -75,7 +76,7 @@ def test_the_bound_is_never_below_the_exact_norm(pose):
 
 
 @given(poses)
-def test_the_bound_for_any_platform_is_the_norm_that_differences_show(pose):
+def test_the_bound_for_any_platform_is_hardly_above_the_norm_that_differences_show(pose):
     """β is ‖H'⁻¹ T‖, where T takes the products ΔXᵀΔX to the second-order part of H."""
     p, b = np.array(ANY.platform), np.array(ANY.base)
 
@@ -94,9 +95,11 @@ def test_the_bound_for_any_platform_is_the_norm_that_differences_show(pose):
     x0 = np.concatenate([scaled.position, scaled.rotation.ravel()])
     basis = np.eye(12)
     derivative = np.array([0.5 * (equations(x0 + e) - equations(x0 - e)) for e in basis]).T
-    beta, inverse_norm = general.bounds(ANY, scaled)
+    vectors = legs(ANY.platform, ANY.base, scaled)
+    _, beta, inverse_norm = general.linearised(ANY, vectors)
     inverse = np.linalg.inv(derivative)
-    assert np.linalg.norm(inverse, 2) == pytest.approx(inverse_norm, rel=1e-9)
+    exact = np.linalg.norm(inverse, 2)
+    assert exact <= inverse_norm <= 3.0 * exact
     deltas = np.random.default_rng(0).normal(size=(40, 12))
     second = [0.5 * (equations(x0 + e) + equations(x0 - e)) - equations(x0) for e in deltas]
     root = math.sqrt(2.0)
@@ -108,7 +111,8 @@ def test_the_bound_for_any_platform_is_the_norm_that_differences_show(pose):
     ]
     per_product = np.linalg.lstsq(np.array(products), np.array(second), rcond=None)[0].T
     assert np.array(products) @ per_product.T == pytest.approx(np.array(second), abs=1e-9)
-    assert np.linalg.norm(inverse @ per_product, 2) == pytest.approx(beta, rel=1e-9)
+    exact = np.linalg.norm(inverse @ per_product, 2)
+    assert exact * (1.0 - 1e-12) <= beta <= 1.25 * exact
 
 
 @given(st.floats(0.3, 20.0), st.floats(0.0, 0.3))

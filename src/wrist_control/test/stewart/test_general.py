@@ -7,6 +7,8 @@ import pytest
 
 from wrist_control.rotations import Pose, turned
 from wrist_control.stewart import general, stages
+from wrist_control.stewart.certificate import ROUNDING, kantorovich
+from wrist_control.stewart.geometry import legs
 
 from .platforms import CROOKED, HOME, SIZE, WRIST, lengths_of, random_poses
 
@@ -38,3 +40,29 @@ def test_a_distance_is_that_of_the_place_and_of_all_three_axes(wrist):
         axes = float(np.linalg.norm(one.rotation - other.rotation))
         found = general._distance(stages.unknowns(one, size), stages.unknowns(other, size))
         assert found == pytest.approx(math.hypot(place, axes), rel=1e-12)
+
+
+def test_a_last_step_leaves_what_its_proof_says():
+    """(S15), from so far off that its square shows beside rounding."""
+    rng, used = np.random.default_rng(0), []
+    for pose in random_poses(100, 0.1, 0.8):
+        root = Pose(pose.quaternion, tuple(x / SIZE for x in pose.position))
+        goal = general.squares_at(KNOWN, stages.unknowns(root, 1.0))
+        reach = 10.0 ** rng.uniform(-5.0, -2.0)
+        rates, shift = reach * rng.normal(size=(2, 3))
+        origin = Pose(turned(root.quaternion, tuple(rates), 1.0), tuple(root.position + shift))
+        vectors = legs(KNOWN.platform, KNOWN.base, origin)
+        missing = np.subtract(goal, (np.array(vectors) ** 2).sum(axis=1))
+        here = general.linearised(KNOWN, vectors)
+        twist = (here.inverse @ missing).tolist()
+        proof = kantorovich(here.beta, general.size_of(twist))
+        floor = ROUNDING * (1.0 + max(goal))
+        after = general.after_step(here, proof, general.size_of(twist), floor)
+        if math.isfinite(after.error):
+            end = stages.unknowns(general._moved(origin, twist), 1.0)
+            used.append(general._distance(end, stages.unknowns(root, 1.0)) / after.error)
+            moved = general._distance(end, stages.unknowns(origin, 1.0))
+            assert proof.unique - after.unique > 0.0
+            assert moved <= proof.unique - after.unique
+    assert len(used) > 80
+    assert 0.05 < max(used) <= 1.0

@@ -15,6 +15,8 @@ from wrist_control.stewart.measurement import (
     pose_covariance,
 )
 
+from .platforms import said
+
 WRIST = make_wrist('stewart')
 NAMES = [joint.name for joint in WRIST.joints]
 POSE = Pose(turned(IDENTITY, (0.3, -0.2, 0.4), 1.0), (0.03, -0.02, 0.45))
@@ -67,8 +69,9 @@ def test_lengths_do_not_tell_the_twist_at_lock():
 
 
 def test_legs_that_contradict_each_other_are_named():
+    lengths = (0.1, 0.5, 0.5, 0.5, 0.5, 2.5)
     with pytest.raises(InvalidValueError, match=r'leg_1 at 0\.1 m and leg_6 at 2\.5 m'):
-        check_possible(WRIST.platform, WRIST.base, (0.1, 0.5, 0.5, 0.5, 0.5, 2.5))
+        check_possible(WRIST.platform, WRIST.base, lengths, said(lengths))
 
 
 def test_lengths_of_real_poses_never_contradict_each_other():

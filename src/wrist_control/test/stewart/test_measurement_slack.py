@@ -8,6 +8,8 @@ import pytest
 from wrist_control import InvalidValueError, make_wrist
 from wrist_control.stewart.measurement import check_possible
 
+from .platforms import said
+
 WRIST = make_wrist('stewart')
 SHORT = 0.4  # m
 
@@ -34,12 +36,14 @@ def lengths_at_the_edge(beyond):
 @pytest.mark.parametrize('beyond', [1e-6, 1e-4, 0.1])
 def test_a_leg_that_is_too_long_for_another_is_named_with_it(beyond):
     one, other = (leg + 1 for leg in NEIGHBOURS)
+    lengths = lengths_at_the_edge(beyond)
     with pytest.raises(
         InvalidValueError, match=f'leg_{one} at 0.4 m and leg_{other} at .* fit no'
     ):
-        check_possible(WRIST.platform, WRIST.base, lengths_at_the_edge(beyond))
+        check_possible(WRIST.platform, WRIST.base, lengths, said(lengths))
 
 
 @pytest.mark.parametrize('beyond', [1e-12, 0.0, -1e-6])
 def test_legs_that_just_fit_may_be_rounded(beyond):
-    check_possible(WRIST.platform, WRIST.base, lengths_at_the_edge(beyond))
+    lengths = lengths_at_the_edge(beyond)
+    check_possible(WRIST.platform, WRIST.base, lengths, said(lengths))

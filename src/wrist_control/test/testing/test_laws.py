@@ -9,6 +9,7 @@ import pytest
 from wrist_control import WRISTS, make_wrist
 from wrist_control.testing import LAWS, LawBrokenError, check_wrist
 from wrist_control.wrists import wrist_class
+from wrist_control.wrists.wrist import Configuration
 
 
 @pytest.mark.parametrize('law', LAWS)
@@ -49,12 +50,17 @@ def margin_of_another_place(kind):
 
 
 def one_branch_only(kind):
-    return {'inverse': lambda self, pose, near: kind.inverse(self, pose, self.home)}
+    home = tuple(kind().home)
+    return {'inverse': lambda self, pose, near: kind.inverse(self, pose, home)}
 
 
 def turns_not_nearest(kind):
     def inverse(self, pose, near):
-        return tuple(math.remainder(x, math.tau) for x in kind.inverse(self, pose, near))
+        found = kind.inverse(self, pose, near)
+        unwound = tuple(math.remainder(x, math.tau) for x in found)
+        if isinstance(found, Configuration):
+            return dataclasses.replace(found, positions=unwound)
+        return unwound
 
     return {'inverse': inverse}
 
@@ -102,7 +108,7 @@ def fourth_gimbal_by_sin_phi_alone(kind):
 
 EVERYONE = tuple(WRISTS)
 # Beyond these edges the mechanism itself ends; a cone is drawn where it need not be.
-WITH_AN_EDGE = ('carpal', 'five_bar', 'stewart')
+WITH_AN_EDGE = ('carpal', 'five_bar', 'stewart', 'rotary_stewart')
 # A leg has no turns, and lengths with a little more to each may fit several poses.
 WITH_TURNS = tuple(name for name in WRISTS if name != 'stewart')
 FAULTS = {

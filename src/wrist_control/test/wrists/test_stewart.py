@@ -13,7 +13,7 @@ from wrist_control.resolving.homing import has_reached, step_home
 from wrist_control.rotations import IDENTITY, Pose, about_z, rates_between, turned
 from wrist_control.stewart.forward_kinematics import Status
 from wrist_control.units import INCH
-from wrist_control.wrists.stewart import EDGE, LegConfiguration
+from wrist_control.wrists.platform import EDGE, Assembly
 
 WRIST = make_wrist('stewart')
 HOME = WRIST.home.pose
@@ -102,7 +102,7 @@ def test_lengths_without_a_pose_belong_to_home():
     pose = Pose(turned(HOME.quaternion, (0.2, -0.1, 0.3), 1.0), (0.03, -0.02, 0.45))
     plain = tuple(WRIST.assembly_at(pose))
     found = WRIST.forward(plain)
-    assert not isinstance(plain, LegConfiguration)
+    assert not isinstance(plain, Assembly)
     assert found.position == pytest.approx(pose.position, abs=1e-14)
     assert rates_between(found.quaternion, pose.quaternion, 1.0) == pytest.approx(
         (0, 0, 0), abs=1e-13
@@ -154,7 +154,7 @@ def test_the_lost_axis_at_a_quarter_turn_is_the_normal():
 def test_where_no_turn_is_lost_the_lost_axis_is_still_a_unit_vector():
     """Six legs that hold all but a shift along x: rows of (n, p × n) without its first column."""
     lines = tuple(tuple(row) for row in np.eye(6)[[1, 2, 3, 4, 5, 5]].tolist())
-    axis = WRIST.lost_axis(LegConfiguration(tuple(WRIST.home), HOME, lines, WRIST.size))
+    axis = WRIST.lost_axis(Assembly(tuple(WRIST.home), HOME, lines, WRIST.size))
     assert axis == (0.0, 0.0, 1.0)  # the turn that locks a platform at last
 
 

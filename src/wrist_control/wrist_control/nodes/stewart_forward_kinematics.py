@@ -1,11 +1,11 @@
-"""The forward kinematics of the Stewart platform: leg lengths in, proved poses out."""
+"""The forward kinematics of a platform: leg lengths in, or servo angles, proved poses out."""
 
 from __future__ import annotations
 
 import math
 import sys
 from dataclasses import replace
-from typing import Any
+from typing import Any, ClassVar
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseWithCovariance, PoseWithCovarianceStamped, TwistStamped
@@ -28,38 +28,75 @@ from wrist_control.ros.parameters import FRAME, Spec
 from wrist_control.ros.qos import NEWEST, OUTPUT
 from wrist_control.ros.running import run
 from wrist_control.ros.wrong_types import WrongTypes
-from wrist_control.wrists.stewart import Stewart
+from wrist_control.wrists import wrist_class
+from wrist_control.wrists.platform import Platform
 from wrist_interfaces.msg import ForwardKinematicsStatus
 
-EACH = 'one for each leg, or one for all'
-SPECS = [
-    *mechanism_specs('stewart'),
-    Spec('joint_lower_limits', [0.0], f'Shortest length that is believed, {EACH}', 'm', 0.0),
-    Spec('joint_upper_limits', [math.inf], f'Longest length that is believed, {EACH}', 'm', 0.0),
-    Spec('length_noise', [1e-4], f'Standard deviation of a length reading, {EACH}', 'm', 0.0),
-    Spec(
-        'jump_limit',
-        0.5,
-        'The fastest that a leg moves, and the platform; readings further apart are refused; '
-        '.inf for no limit',
-        'm/s',
-        1e-6,
-    ),
-    Spec(
-        'gap_limit',
-        1.0,
-        'After this long without a good pose the platform must be home again',
-        's',
-        0.001,
-        3600.0,
-    ),
-    Spec('base_frame', 'forearm', 'Name of the frame that platform_pose is given in', FRAME),
-    Spec('platform_frame', 'hand', 'Name of the frame that platform_twist is given in', FRAME),
-    Spec('joint_prefix', '', 'Put before every joint name'),
-]
+# What a reading is good for when nobody says: its noise, and the fastest that a joint moves.
+NOISE = {'m': 1e-4, 'rad': 1e-3}
+FASTEST = {'m': 0.5, 'rad': 6.0}
+
+
+def specs(wrist_name: str) -> list[Spec]:
+    """Return the parameters of the forward kinematics of a platform."""
+    kind = platform_class(wrist_name)
+    unit, drive, measured = kind.unit, kind.drive, kind.measured
+    each, least = f'one for each {drive}, or one for all', 0.0 if unit == 'm' else -math.inf
+    return [
+        *mechanism_specs(wrist_name),
+        Spec(
+            'joint_lower_limits',
+            [least],
+            f'Least {measured} that counts, {each}',
+            unit,
+            least,
+        ),
+        Spec(
+            'joint_upper_limits',
+            [math.inf],
+            f'Largest {measured} that counts, {each}',
+            unit,
+            least,
+        ),
+        Spec(
+            f'{measured}_noise',
+            [NOISE[unit]],
+            f'Standard deviation of a reading, {each}',
+            unit,
+            0.0,
+        ),
+        Spec(
+            'jump_limit',
+            FASTEST[unit],
+            f'The fastest that a {drive} moves, and the platform no faster than the end of its '
+            f'rod; readings further apart are refused; .inf for no limit',
+            f'{unit}/s',
+            1e-6,
+        ),
+        Spec(
+            'gap_limit',
+            1.0,
+            'After this long without a good pose the platform must be home again',
+            's',
+            0.001,
+            3600.0,
+        ),
+        Spec('base_frame', 'forearm', 'Name of the frame that platform_pose is given in', FRAME),
+        Spec('platform_frame', 'hand', 'Name of the frame that platform_twist is given in', FRAME),
+        Spec('joint_prefix', '', 'Put before every joint name'),
+    ]
+
+
+def platform_class(wrist_name: str) -> type[Platform]:
+    """Return the class of a platform by its name."""
+    kind = wrist_class(wrist_name)
+    assert issubclass(kind, Platform)
+    return kind
+
+
+SPECS = specs('stewart')
 # In place of a bound that is not known: nothing that is not finite leaves a node.
 UNKNOWN = -1.0
-NO_DATA = 'No leg lengths have come yet; is joint_states published, with leg_1 to leg_6 in it?'
 
 
 class StewartForwardKinematics(GuardedNode):
@@ -68,7 +105,12 @@ class StewartForwardKinematics(GuardedNode):
     `platform_pose` and `platform_twist` are published for a CONVERGED answer only: whoever hears
     them need not listen to `forward_kinematics_status` to be safe. That is published for every
     reading that could be one of this platform's, and NO_DATA once a second until the first.
+
+    Attributes:
+        wrist_name: Which platform, by the registry of wrists.
     """
+
+    wrist_name: ClassVar[str] = 'stewart'
 
     def __init__(self, **node_options: Any) -> None:
         """Declare the parameters and start listening.
@@ -79,15 +121,18 @@ class StewartForwardKinematics(GuardedNode):
         Raises:
             WristError: A parameter cannot be used; the sentence says why.
         """
-        super().__init__('stewart_forward_kinematics', **node_options)
-        self._values = values = self.declare(SPECS)
-        self._wrist = self._platform()
+        super().__init__(f'{self.wrist_name}_forward_kinematics', **node_options)
+        self._values = values = self.declare(specs(self.wrist_name))
+        self._wrist = wrist = self._platform()
+        noise = values[f'{wrist.measured}_noise']
         self._observer = Observer(
-            self._wrist,
-            ObserverSettings(values['length_noise'], values['jump_limit'], values['gap_limit']),
+            wrist, ObserverSettings(noise, values['jump_limit'], values['gap_limit'])
         )
         self._status = ForwardKinematicsStatus(
-            status=ForwardKinematicsStatus.NO_DATA, error_bound=UNKNOWN, message=NO_DATA
+            status=ForwardKinematicsStatus.NO_DATA,
+            error_bound=UNKNOWN,
+            message=f'No {wrist.drive} {wrist.measured}s have come yet; is joint_states '
+            f'published, with {wrist.drive}_1 to {wrist.drive}_6 in it?',
         )
         self._last_good = self.get_clock().now()  # or the start, before the first
         self._refused = ''
@@ -101,16 +146,16 @@ class StewartForwardKinematics(GuardedNode):
         self.create_subscription(JointState, 'joint_states', self._on_joint_states, NEWEST)
         self._waiting = self.create_timer(1.0, self._wait, clock=self.steady)
 
-    def _platform(self) -> Stewart:
+    def _platform(self) -> Platform:
         values = self._values
-        wrist = mechanism('stewart', values).with_limits(
+        wrist = mechanism(self.wrist_name, values).with_limits(
             lower=values['joint_lower_limits'], upper=values['joint_upper_limits']
         )
         named = [
             joint._replace(name=values['joint_prefix'] + joint.name) for joint in wrist.joints
         ]
         platform = replace(wrist, joints=tuple(named))
-        assert isinstance(platform, Stewart)
+        assert isinstance(platform, Platform)
         return platform
 
     def _on_joint_states(self, message: JointState) -> None:

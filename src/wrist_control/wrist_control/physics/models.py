@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from wrist_control.errors import InvalidValueError
-from wrist_control.physics import carpal, five_bar, gimbals, hooke, stewart
+from wrist_control.physics import carpal, five_bar, gimbals, hooke, rotary_stewart, stewart
 from wrist_control.physics.mechanism import Mechanism, Settings
 from wrist_control.wrists.wrist import Wrist
 
@@ -22,6 +22,7 @@ MODELS: dict[str, Callable[[Any, Settings], Mechanism]] = {
     'pitch_yaw': gimbals.pitch_yaw,
     'five_bar': five_bar.five_bar,
     'stewart': stewart.stewart,
+    'rotary_stewart': rotary_stewart.rotary_stewart,
 }
 DEFAULTS = Settings()
 

@@ -1,4 +1,4 @@
-"""From a stream of leg readings to poses, each of them proved. No ROS, no clock."""
+"""From a stream of joint readings to a platform's poses, each proved. No ROS, no clock."""
 
 from __future__ import annotations
 
@@ -12,42 +12,36 @@ from wrist_control.errors import InvalidValueError, RefusedError
 from wrist_control.resolving.joint_order import in_joint_order
 from wrist_control.resolving.limits import TOLERANCE
 from wrist_control.rotations import Pose
-from wrist_control.stewart.forward_kinematics import Solution, Status
+from wrist_control.stewart.forward_kinematics import Solution, Status, apart
 from wrist_control.stewart.measurement import (
     check_jump,
-    check_lengths,
     check_possible,
     platform_twist,
     pose_covariance,
 )
-from wrist_control.wrists.stewart import FAR, Stewart
+from wrist_control.wrists.platform import Platform
 
-HOMEWARDS = f'drive it home, until every leg is within {FAR:g} m of its length there.'
 MEANINGS = {
     Status.CONVERGED: 'The pose is proved to be the one that the pose before leads to.',
-    Status.DIVERGED: f'No pose was found; check the leg readings, and {HOMEWARDS}',
+    Status.DIVERGED: 'No pose was found; check the joint readings, and ',
     Status.NEAR_SINGULAR: 'The platform is near lock, and may be on either side of it; none is '
-    f'published: {HOMEWARDS}',
+    'published: ',
 }
 AT_HOME = 'The pose is proved to be the one that home leads to.'
-NO_START = (
-    'There is no pose to go on from, and the lengths alone may fit several; none is published: '
-    f'{HOMEWARDS}'
-)
 
 
 class ObserverSettings(NamedTuple):
     """What an observer is told once.
 
     Attributes:
-        length_noise: Standard deviation of each length reading, m, six or one for all.
-        jump_limit: The fastest that a leg moves, m/s; readings further apart are refused. No
-            faster, in the distance in which proofs are stated, moves the platform; where it is
-            inf, the legs go straight from one reading to the next.
+        noise: Standard deviation of each reading, m or rad, six or one for all.
+        jump_limit: The fastest that a joint moves, m/s or rad/s; readings further apart are
+            refused. No faster than its rods' ends, in the distance in which proofs are stated,
+            moves the platform; where it is inf, it is where the pose before leads to.
         gap_limit: After this long without a good pose the platform must be home again, s.
     """
 
-    length_noise: Sequence[float]
+    noise: Sequence[float]
     jump_limit: float
     gap_limit: float
 
@@ -59,7 +53,7 @@ class Observed(NamedTuple):
         solution: The answer and its proof. Its pose counts only when it is CONVERGED.
         covariance: Of the pose, (6, 6): x, y, z, turns about x, y, z, base axes, m² and rad²;
             None where the pose does not count.
-        twist: (vx, vy, vz, p, q, r), platform axes; None without leg rates.
+        twist: (vx, vy, vz, p, q, r), platform axes; None without joint rates.
         message: One sentence for the operator.
     """
 
@@ -72,7 +66,7 @@ class Observed(NamedTuple):
 class Good(NamedTuple):
     """The last good reading and its pose."""
 
-    lengths: tuple[float, ...]
+    positions: tuple[float, ...]
     pose: Pose
     stamp: float
 
@@ -80,16 +74,16 @@ class Good(NamedTuple):
 class Observer:
     """Follows one platform from reading to reading.
 
-    Lengths alone fit several poses, on either side of lock. A pose counts only when the platform
+    Readings alone fit several poses, on either side of lock. A pose counts only when the platform
     is proved to be there and nowhere else: at home, or where the pose before leads to, if the
     platform cannot have reached another pose since. Where it can, as near lock or after a gap,
     no pose counts until the platform is home again.
 
-    Home is where every leg is within `FAR` of its length there. That is taken for granted: the
-    paper's home lengths fit three poses more, overturned by 93° and beyond lock.
+    Home is where every joint is within `Platform.far` of its position there. That is taken for
+    granted: the paper's home lengths fit three poses more, overturned by 93° and beyond lock.
     """
 
-    def __init__(self, wrist: Stewart, settings: ObserverSettings) -> None:
+    def __init__(self, wrist: Platform, settings: ObserverSettings) -> None:
         """Begin without a pose.
 
         Args:
@@ -97,52 +91,70 @@ class Observer:
             settings: How good the readings are.
 
         Raises:
-            InvalidValueError: `length_noise` is not one or six finite values of 0 m or more.
+            InvalidValueError: The noise is not one or six finite values of 0 or more.
         """
-        if len(settings.length_noise) not in (1, 6):
+        name = f'{wrist.measured}_noise'
+        if len(settings.noise) not in (1, 6):
             raise InvalidValueError(
-                f'length_noise has {len(settings.length_noise)} values; give 1 for all legs or 6.'
+                f'{name} has {len(settings.noise)} values; give 1 for all {wrist.drive}s or 6.'
             )
-        pose_covariance(wrist.home.lines, wrist.home.pose, settings.length_noise)
+        if not all(math.isfinite(x) and x >= 0.0 for x in settings.noise):
+            raise InvalidValueError(
+                f'{name} is {settings.noise}; give finite values of 0 {wrist.unit} or more, one '
+                'or six.'
+            )
         self._wrist, self._settings = wrist, settings
         self._names = [joint.name for joint in wrist.joints]
         self._good: Good | None = None
         self._near = wrist.home.pose
-        self._doubt = NO_START
+        self._homewards = (
+            f'drive it home, until every {wrist.drive} is within {wrist.far:g} {wrist.unit} of '
+            f'its {wrist.measured} there.'
+        )
+        self._doubt = (
+            f'There is no pose to go on from, and the {wrist.measured}s alone may fit several; '
+            f'none is published: {self._homewards}'
+        )
 
     def take(self, names: Sequence[str], positions: Sequence[float], stamp: float) -> Observed:
         """Return what a reading says of the pose; only a proved one is gone on from.
 
         Args:
-            names: Joint names, in any order; others than the legs may be among them.
-            positions: Their positions, m.
+            names: Joint names, in any order; others than the platform's may be among them.
+            positions: Their positions, m or rad.
             stamp: When they were read, s.
 
         Raises:
             RefusedError: The reading does not count; nothing has changed.
         """
-        lengths = self._checked(names, positions)
+        readings = self._checked(names, positions)
+        kinematics, lengths = self._wrist.kinematics_at(readings)
         try:
-            check_possible(self._wrist.platform, self._wrist.base, lengths)
+            check_possible(kinematics.platform, kinematics.base, lengths, self._said(readings))
         except InvalidValueError as error:
             none = Solution(None, Status.UNREACHABLE, 0, math.inf, 0.0)
             return Observed(none, None, None, str(error))
-        good = self._before(lengths, stamp)
-        solution = self._wrist.forward_kinematics.solve(lengths, self._near)
+        good = self._before(readings, stamp)
+        solution = kinematics.solve(lengths, self._near)
         if good is not None:
             if self._leads_only_to(solution, good, stamp - good.stamp):
-                return self._counting(solution, MEANINGS[Status.CONVERGED], lengths, stamp)
-            self._good, self._doubt = None, _may_have_crossed(stamp - good.stamp)
-        if self._is_home(lengths):
-            at_home = self._wrist.forward_kinematics.solve(lengths)
+                return self._counting(solution, MEANINGS[Status.CONVERGED], readings, stamp)
+            self._good, self._doubt = None, self._may_have_crossed(stamp - good.stamp)
+        if self._is_home(readings):
+            at_home = kinematics.solve(lengths)
             if at_home.status == Status.CONVERGED:
-                return self._counting(at_home, AT_HOME, lengths, stamp)
+                return self._counting(at_home, AT_HOME, readings, stamp)
         return self._not_counting(solution)
+
+    def _said(self, readings: Sequence[float]) -> list[str]:
+        """Return what each reading is called in a sentence."""
+        unit = self._wrist.unit
+        return [f'{name} at {x:g} {unit}' for name, x in zip(self._names, readings, strict=True)]
 
     def _leads_only_to(self, solution: Solution, good: Good, dt: float) -> bool:
         """Return whether a pose is proved to be where the platform is: (S13).
 
-        Every other of its lengths is further than the unique radius from this one. The platform
+        Every other that fits is further than the unique radius from this one. The platform
         is no further from the good pose than it moves in dt; where it is seen to move faster than
         the limit says, than it was seen to move.
         """
@@ -150,12 +162,13 @@ class Observer:
             return False
         if math.isinf(self._settings.jump_limit):
             return True
-        travel = self._wrist.forward_kinematics.apart(good.pose, solution.pose)
-        reach = max(travel, self._settings.jump_limit * dt)
+        travel = apart(good.pose, solution.pose, self._wrist.size)
+        reach = max(travel, self._settings.jump_limit * self._wrist.reach * dt)
         return solution.unique_radius > travel + reach
 
-    def _is_home(self, lengths: Sequence[float]) -> bool:
-        return all(abs(x - y) <= FAR for x, y in zip(lengths, self._wrist.home, strict=True))
+    def _is_home(self, readings: Sequence[float]) -> bool:
+        pairs = zip(readings, self._wrist.home, strict=True)
+        return all(abs(x - y) <= self._wrist.far for x, y in pairs)
 
     def _not_counting(self, solution: Solution) -> Observed:
         """Return an answer that is not proved.
@@ -165,28 +178,32 @@ class Observer:
         self._near = self._wrist.home.pose if solution.pose is None else solution.pose
         if solution.status == Status.CONVERGED:
             solution = solution._replace(status=Status.UNPROVEN)
-        return Observed(solution, None, None, MEANINGS.get(solution.status, self._doubt))
+        meaning = MEANINGS.get(solution.status)
+        message = self._doubt if meaning is None else meaning + self._homewards
+        return Observed(solution, None, None, message)
 
     def _counting(
-        self, solution: Solution, message: str, lengths: tuple[float, ...], stamp: float
+        self, solution: Solution, message: str, readings: tuple[float, ...], stamp: float
     ) -> Observed:
         """Return a pose that counts, and go on from it."""
         assert solution.pose is not None
         self._near = solution.pose
-        self._good = Good(lengths, solution.pose, stamp)
-        lines = self._wrist.assembly_at(solution.pose).lines
-        noise = self._settings.length_noise
-        return Observed(solution, pose_covariance(lines, solution.pose, noise), None, message)
+        self._good = Good(readings, solution.pose, stamp)
+        assembly = self._wrist.held(readings, solution.pose)
+        noise = np.multiply(self._settings.noise, assembly.levers)
+        covariance = pose_covariance(assembly.lines, solution.pose, np.abs(noise).tolist())
+        return Observed(solution, covariance, None, message)
 
     def with_twist(
         self, observed: Observed, names: Sequence[str], velocities: Sequence[float]
     ) -> Observed:
-        """Return the same with the platform's twist, where the leg rates tell it.
+        """Return the same with the platform's twist, where the joint rates tell it.
 
         Args:
             observed: What the positions of the same reading say.
             names: Joint names.
-            velocities: Their rates, m/s; none, or nan for every leg, where they are not known.
+            velocities: Their rates, m/s or rad/s; none, or nan for every joint, where they are
+                not known.
 
         Raises:
             RefusedError: Rates that cannot be; the pose stands.
@@ -200,26 +217,31 @@ class Observer:
             if not abs(rate) <= self._settings.jump_limit or math.isinf(rate):
                 raise RefusedError(
                     'impossible velocity',
-                    f'The velocity of {name} is {rate:g} m/s; valid is up to jump_limit, '
-                    f'{self._settings.jump_limit:g} m/s.',
+                    f'The velocity of {name} is {rate:g} {self._wrist.unit}/s; valid is up to '
+                    f'jump_limit, {self._settings.jump_limit:g} {self._wrist.unit}/s.',
                 )
-        lines = self._wrist.assembly_at(observed.solution.pose).lines
-        return observed._replace(twist=platform_twist(lines, rates))
+        good = self._good
+        assert good is not None
+        assembly = self._wrist.held(good.positions, good.pose)
+        along = np.multiply(rates, assembly.levers).tolist()
+        return observed._replace(twist=platform_twist(assembly.lines, along))
 
     def _checked(self, names: Sequence[str], positions: Sequence[float]) -> tuple[float, ...]:
-        lengths = in_joint_order(self._names, names, positions)
-        finite = all(math.isfinite(x) for x in lengths)
-        _refusing('impossible length' if finite else 'not finite', check_lengths, lengths)
-        for joint, length in zip(self._wrist.joints, lengths, strict=True):
-            if not joint.lower - TOLERANCE <= length <= joint.upper + TOLERANCE:
+        readings = in_joint_order(self._names, names, positions)
+        finite = all(math.isfinite(x) for x in readings)
+        reason = f'impossible {self._wrist.measured}' if finite else 'not finite'
+        _refusing(reason, self._wrist.check_readings, readings)
+        unit = self._wrist.unit
+        for joint, reading in zip(self._wrist.joints, readings, strict=True):
+            if not joint.lower - TOLERANCE <= reading <= joint.upper + TOLERANCE:
                 raise RefusedError(
                     'outside its limits',
-                    f'{joint.name} is {length:g} m long; valid is {joint.lower:g} to '
-                    f'{joint.upper:g} m: check its reading, or the limits.',
+                    f'{joint.name} is at {reading:g} {unit}; valid is {joint.lower:g} to '
+                    f'{joint.upper:g} {unit}: check its reading, or the limits.',
                 )
-        return lengths
+        return readings
 
-    def _before(self, lengths: Sequence[float], stamp: float) -> Good | None:
+    def _before(self, readings: Sequence[float], stamp: float) -> Good | None:
         """Return the good reading to go on from; None where there is none, or it is too long ago.
 
         A clock that goes back by more than the gap has been set again.
@@ -229,7 +251,7 @@ class Observer:
             return None
         dt, fastest = stamp - good.stamp, self._settings.jump_limit
         if abs(dt) > self._settings.gap_limit:
-            self._good, self._doubt = None, _may_have_crossed(dt)
+            self._good, self._doubt = None, self._may_have_crossed(dt)
             return None
         if dt < 0.0:
             raise RefusedError(
@@ -237,15 +259,16 @@ class Observer:
                 f'The reading is {-dt:.3f} s older than the last good one; send them in the order '
                 'of their stamps.',
             )
-        _refusing('jump', check_jump, lengths, good.lengths, dt, fastest)
+        words = self._wrist.drive, self._wrist.unit
+        _refusing('jump', check_jump, readings, good.positions, dt, fastest, *words)
         return good
 
-
-def _may_have_crossed(dt: float) -> str:
-    return (
-        f'In the {abs(dt):.3g} s since the last proved pose the platform may have crossed a lock, '
-        f'and lengths cannot tell the side; none is published: {HOMEWARDS}'
-    )
+    def _may_have_crossed(self, dt: float) -> str:
+        return (
+            f'In the {abs(dt):.3g} s since the last proved pose the platform may have crossed a '
+            f'lock, and {self._wrist.measured}s cannot tell the side; none is published: '
+            f'{self._homewards}'
+        )
 
 
 def _refusing(reason: str, check: Callable[..., Any], *values: Any) -> Any:

@@ -37,6 +37,12 @@ CLEARLY_HIGH = 2.0 * tracking.LOW
 CONVERGED, UNPROVEN, NEAR_SINGULAR = Status.CONVERGED, Status.UNPROVEN, Status.NEAR_SINGULAR
 
 
+class Last:
+    """The last answer and where it came from: a start from there needs no new linearisation."""
+
+    answer: tuple[Pose | None, Track | None] = (None, None)
+
+
 class ForwardKinematics:
     """The forward kinematics of one platform.
 
@@ -57,8 +63,20 @@ class ForwardKinematics:
         self.platform, self.base, self.size, self.home = platform, base, size, home
         self.planar = quadratics.coefficients(platform, base, size)
         self._any = general.scaled(platform, base, size)
-        # The last answer and where it came from: a start from there needs no new linearisation.
-        self._last: tuple[Pose | None, Track | None] = (None, None)
+        self._last = Last()
+
+    def moved_to(self, base: Anchors) -> ForwardKinematics:
+        """Return the same platform on other base anchors, m, such as the tips of turning horns.
+
+        What does not depend on them is not computed again, and the last answer is remembered.
+        Six legs at a time are solved, also where both sets of anchors are in planes.
+        """
+        moved = object.__new__(ForwardKinematics)
+        moved.platform, moved.base, moved.size, moved.home = (
+            self.platform, base, self.size, self.home
+        )  # fmt: skip
+        moved.planar, moved._any, moved._last = None, general.moved(self._any, base), self._last
+        return moved
 
     def solve(self, lengths: Sequence[float], near: Pose | None = None) -> Solution:
         """Return the pose that `near` leads to when its legs go straight to these lengths.
@@ -80,7 +98,7 @@ class ForwardKinematics:
         positive = l1 > 0.0 < l2 and l3 > 0.0 < l4 and l5 > 0.0 < l6
         if not positive or math.inf in lengths:
             check_lengths(lengths)
-        pose, track = self._last  # one look: another thread may solve, too
+        pose, track = self._last.answer  # one look: another thread may solve, too
         if near is pose and track is not None:
             start, tangent = track.at, track.tangent
         else:
@@ -88,10 +106,13 @@ class ForwardKinematics:
         if self.planar is not None:
             goal = quadratics.right_side(self.planar, lengths)
             track = tracking.solve_planar(self.planar, goal, start, tangent)
-            if track is not None and track.followed:
-                solution = self._solution(track)
-                self._last = solution.pose, track
-                return solution
+        else:
+            goal = general.squares(self._any, lengths)
+            track = general.solve_general(self._any, goal, start, tangent)
+        if track is not None and track.followed:
+            solution = self._solution(track)
+            self._last.answer = solution.pose, track
+            return solution
         return self._solve_far(lengths, start)
 
     def _solve_far(self, lengths: Sequence[float], start: stages.Unknowns) -> Solution:
@@ -230,6 +251,9 @@ class ForwardKinematics:
 
     def apart(self, one: Pose, other: Pose) -> float:
         """Return the distance of two poses, m, in which `Solution` states its proofs."""
-        return self.size * math.dist(
-            stages.unknowns(one, self.size), stages.unknowns(other, self.size)
-        )
+        return apart(one, other, self.size)
+
+
+def apart(one: Pose, other: Pose, size: float) -> float:
+    """Return the distance of two poses, m, in which `Solution` states its proofs."""
+    return size * math.dist(stages.unknowns(one, size), stages.unknowns(other, size))

@@ -50,40 +50,52 @@ def impossible_pair(
     return None
 
 
-def check_possible(platform: Anchors, base: Anchors, lengths: Sequence[float]) -> None:
+def check_possible(
+    platform: Anchors, base: Anchors, lengths: Sequence[float], said: Sequence[str]
+) -> None:
     """Refuse lengths that no pose can have.
 
+    Args:
+        platform: Anchors in platform axes, m.
+        base: Anchors in base axes, m.
+        lengths: m.
+        said: What to call the reading of each in an error, with its value.
+
     Raises:
-        InvalidValueError: The text names two legs that contradict each other.
+        InvalidValueError: The text names two that contradict each other.
     """
     pair = impossible_pair(platform, base, lengths)
     if pair:
-        i, j = pair
-        raise InvalidValueError(
-            f'leg_{i} at {lengths[i - 1]:g} m and leg_{j} at {lengths[j - 1]:g} m fit no pose '
-            'together; check their readings.'
-        )
+        one, other = (said[number - 1] for number in pair)
+        raise InvalidValueError(f'{one} and {other} fit no pose together; check their readings.')
 
 
 def check_jump(
-    lengths: Sequence[float], before: Sequence[float], dt: float, fastest: float
+    readings: Sequence[float],
+    before: Sequence[float],
+    dt: float,
+    fastest: float,
+    drive: str = 'leg',
+    unit: str = 'm',
 ) -> None:
-    """Refuse lengths that lie further from those before than the legs can move.
+    """Refuse readings that lie further from those before than the joints can move.
 
     Args:
-        lengths: m.
-        before: The last good ones, m.
+        readings: m, or rad.
+        before: The last good ones.
         dt: Time between the two, s.
-        fastest: The fastest that a leg moves, m/s.
+        fastest: The fastest that a joint moves, m/s or rad/s.
+        drive: What a joint is called, without its number.
+        unit: What readings are in.
 
     Raises:
-        InvalidValueError: The text names the leg and how far it jumped.
+        InvalidValueError: The text names the joint and how far it jumped.
     """
-    for leg, (new, old) in enumerate(zip(lengths, before, strict=True), start=1):
+    for number, (new, old) in enumerate(zip(readings, before, strict=True), start=1):
         if abs(new - old) > fastest * dt:
             raise InvalidValueError(
-                f'leg_{leg} jumped by {new - old:g} m in {dt:g} s; at {fastest:g} m/s it moves '
-                f'{fastest * dt:g} m at most.'
+                f'{drive}_{number} jumped by {new - old:g} {unit} in {dt:g} s; at {fastest:g} '
+                f'{unit}/s it moves {fastest * dt:g} {unit} at most.'
             )
 
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from wrist_control.rotations import Pose, quaternion_of, unit
 from wrist_control.stewart.certificate import Proof, make_tuple
-from wrist_control.stewart.quadratics import Matrix, Nine, Number, Six, Three
+from wrist_control.stewart.quadratics import Nine, Number, Six, Three
 
 # Where a proof can hold, Newton's steps end after five at most; a search from afar takes up to 12
 # for every pose that it finds. More are harmless, and cost a search their time.
@@ -27,10 +27,16 @@ Four = tuple[Number, Number, Number, Number]
 
 
 class Tangent(NamedTuple):
-    """Where the equations of a planar platform were linearised, and Newton's inverse there."""
+    """Where the equations were linearised, and Newton's inverse there.
+
+    Attributes:
+        origin: The unknowns there.
+        inverse: Of a planar platform `quadratics.newton_inverse`, of any other
+            `general.Linearisation.inverse`.
+    """
 
     origin: Unknowns
-    M_inverse: Matrix[float]
+    inverse: Any
 
 
 class Track(NamedTuple):

@@ -147,7 +147,10 @@ def _is_firm(mechanism: Mechanism, positions: np.ndarray) -> bool:
 
 
 def _spread(wrist: Wrist, size: float) -> np.ndarray:
-    units = {'revolute': 1.0, 'prismatic': size}
+    # Angles of a platform's servos that are further from home lead from there to other poses than
+    # those on the mechanism's own way.
+    turn = 1.0 if wrist.twist_size == 3 else 0.5
+    units = {'revolute': turn, 'prismatic': size}
     return np.array([SPREAD[joint.kind] * units[joint.kind] for joint in wrist.joints])
 
 

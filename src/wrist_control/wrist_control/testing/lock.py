@@ -34,8 +34,8 @@ LOCKED = 1e-6
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 # Distances from a lock, in lengths of the line: `margin` shrinks from each to the next.
 DISTANCES = (2e-3, 1e-3, 3e-4, 1e-4, 3e-5)
-# `margin` grows like this power of the distance near lock: by its square a wrist would count as
-# locked thirty times further away than it is.
+# `margin` grows like this power of the way that the joints are from lock: by its square a wrist
+# would count as locked thirty times further away than it is.
 LEAST_POWER, LARGEST_POWER = 0.8, 1.25
 
 
@@ -139,16 +139,17 @@ def margin_tells_the_distance_to_lock(wrist: Wrist, random: Random) -> None:
                 values = [conditioning(place) for place in places]
             except UnreachableError:
                 continue
-            if any(near >= far for far, near in pairwise(values)):
+            if any(less >= more for more, less in pairwise(values)):
                 continue  # the line runs along the lock, or past two of them
             where = tuple(line(at))
-            falls = all(near < far for far, near in pairwise(margins))
+            falls = all(less < more for more, less in pairwise(margins))
             require(falls, f'towards the lock at {where} margin does not fall: {margins}')
             # Of the two nearest only: further out, another lock may be the nearer one.
-            power = math.log(margins[2] / margins[-1]) / math.log(DISTANCES[2] / DISTANCES[-1])
+            far, near = (math.dist(places[i], line(at)) for i in (2, -1))
+            power = math.log(margins[2] / margins[-1]) / math.log(far / near)
             require(
                 LEAST_POWER < power < LARGEST_POWER,
-                f'near the lock at {where} margin goes like the power {power:.2g} of the distance',
+                f'near the lock at {where} margin goes like the power {power:.2g} of the way',
             )
 
 

@@ -17,4 +17,5 @@ WRISTS = {
     'pitch_yaw': 'PitchYaw',
     'five_bar': 'FiveBar',
     'stewart': 'Stewart',
+    'rotary_stewart': 'RotaryStewart',
 }
