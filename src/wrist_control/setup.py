@@ -17,6 +17,7 @@ NODES = [
     'joint_simulator',
     'operator',
     'physics_simulator',
+    'recorder',
     'stewart_forward_kinematics',
     'wrist_resolver',
 ]
