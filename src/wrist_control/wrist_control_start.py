@@ -7,10 +7,15 @@ signals. This module stands beside the package, for whatever is in it imports al
 
 import os
 import signal
+import sys
 from functools import partial
 from importlib import import_module
 
-NODES = 'wrist_control.nodes'
+PACKAGE = 'wrist_control'
+NODES = f'{PACKAGE}.nodes'
+# What is no node, and ends by itself.
+COMMANDS = ('replay', 'report')
+INTERRUPTED = 130  # the exit code of a command that Ctrl-C ends
 
 
 def __getattr__(name: str) -> partial[None]:
@@ -21,6 +26,11 @@ def __getattr__(name: str) -> partial[None]:
 
 
 def _start(executable: str) -> None:
+    if executable in COMMANDS:
+        signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
+        command = import_module(f'{PACKAGE}.{executable}')
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        sys.exit(command.main())
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: os._exit(0))
     wrist = executable.removesuffix('_resolver')

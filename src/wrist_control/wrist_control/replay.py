@@ -1,0 +1,74 @@
+"""Make the steps of a recorded run again, and see whether they are the same to the last bit."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from wrist_control.bags import check_installed
+from wrist_control.errors import WristError
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Replay a recording.
+
+    Returns:
+        The exit code: 0 when every joint command is the same, 1 when one is not, 2 when there is
+        nothing to replay.
+    """
+    parser = argparse.ArgumentParser(prog='replay', description=__doc__)
+    add_run(parser)
+    chosen = parser.parse_args(arguments)
+    console = Console(soft_wrap=True)
+    try:
+        check_installed()
+        return _replay(chosen.run, chosen.namespace, console)
+    except KeyboardInterrupt:
+        return 130
+    except WristError as error:
+        print(f'Cannot replay: {error}', file=sys.stderr)
+        return 2
+
+
+def add_run(parser: argparse.ArgumentParser) -> None:
+    """Add the arguments that say which run is meant."""
+    parser.add_argument('run', type=Path, help='folder of a recording, or its .mcap file')
+    parser.add_argument(
+        '--namespace', default='', help='whose run, where a recording has several wrists'
+    )
+
+
+def progress(console: Console) -> Progress:
+    """Return how far long work is, shown until it is done."""
+    return Progress(
+        TextColumn('{task.description:<24}'),
+        BarColumn(),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+    )
+
+
+def _replay(path: Path, space: str, console: Console) -> int:
+    from wrist_control.runs.replaying import Comparison, Replay
+    from wrist_control.runs.run import Run
+
+    with progress(console) as shown:
+        reading = shown.add_task('reading', total=1.0)
+        run = Run(path, space, lambda share: shown.update(reading, completed=share))
+        making = shown.add_task('making the steps again', total=1.0)
+        seen: Comparison = Replay(run).make(lambda share: shown.update(making, completed=share))
+    if run.cut:
+        console.print(run.cut, highlight=False, markup=False)
+    for sentence in seen.sentences():
+        console.print(sentence, highlight=False, markup=False)
+    return 0 if seen.exact else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,159 @@
+"""One wrist's run, found in a recording."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wrist_control.bags.reading import Recording, Stamped
+from wrist_control.errors import InvalidValueError
+from wrist_control.nodes.resolver_settings import limited, mechanism, settings
+from wrist_control.resolving.period import SupervisorSettings
+from wrist_control.resolving.witness import Kind
+from wrist_control.wrists import Wrist, wrist_names
+
+STATUS = 'wrist_interfaces/msg/WristStatus'
+# The topics of a run, and the types that they must have.
+TOPICS = {
+    'wrist_status': STATUS,
+    'step_inputs': 'wrist_interfaces/msg/StepInputs',
+    'joint_command': 'sensor_msgs/msg/JointState',
+    'joint_states': 'sensor_msgs/msg/JointState',
+    'hand_pose': 'geometry_msgs/msg/PoseStamped',
+    'cmd_vel': 'geometry_msgs/msg/TwistStamped',
+    'cmd_vel_unstamped': 'geometry_msgs/msg/Twist',
+}
+
+
+class Resolver(NamedTuple):
+    """What a resolver was, by its parameters.
+
+    Attributes:
+        name: Which wrist it had.
+        wrist: The mechanism, with the limits it kept.
+        settings: What its supervisor was told once.
+        values: All parameters, by name.
+    """
+
+    name: str
+    wrist: Wrist
+    settings: SupervisorSettings
+    values: Mapping[str, Any]
+
+
+class Run:
+    """What was said in one wrist's graph.
+
+    Attributes:
+        path: Where it is recorded.
+        space: The namespace that its topics are in, with a slash at the end.
+        cut: What is wrong with the recording's end; empty where nothing is.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        space: str = '',
+        tell: Callable[[float], None] = lambda share: None,
+    ) -> None:
+        """Read a recording.
+
+        Args:
+            path: The folder of a recording, or its file.
+            space: The namespace; that of the only resolver where it is empty.
+            tell: Called now and then with the share that is read, 0 to 1.
+
+        Raises:
+            InvalidValueError: There is no run of a wrist in it, or there are several.
+        """
+        self._recording = Recording(path, _is_ours, tell)
+        self.path, self.cut = path, self._recording.cut
+        self.space = self._only_space(space)
+
+    def messages(self, topic: str) -> list[Stamped]:
+        """Return the messages of a topic of TOPICS, in the order they came."""
+        name = self.space + topic
+        if self._recording.types.get(name) != TOPICS[topic]:
+            return []
+        return self._recording.messages(name)
+
+    def _only_space(self, wanted: str) -> str:
+        found = [
+            topic.removesuffix('wrist_status')
+            for topic, kind in self._recording.types.items()
+            if kind == STATUS and topic.endswith('/wrist_status')
+        ]
+        if not found:
+            raise InvalidValueError(
+                f'{self.path} is a recording of something else: no resolver says its wrist_status '
+                f'in it; its topics are {", ".join(sorted(self._recording.types)[:12])}.'
+            )
+        asked = f'/{wanted.strip("/")}/'.replace('//', '/')
+        if wanted and asked in found:
+            return asked
+        if wanted or len(found) > 1:
+            raise InvalidValueError(
+                f'{self.path} has the wrists of {", ".join(sorted(found))}; choose one of them '
+                'with --namespace.'
+            )
+        return found[0]
+
+    def resolver(self) -> Resolver:
+        """Return what the resolver was when the recording began.
+
+        Raises:
+            InvalidValueError: It does not say, or its wrist is not known here.
+        """
+        for _, inputs in self.messages('step_inputs'):
+            for heard in inputs.heard:
+                if heard.kind == Kind.PARAMETERS:
+                    return self.resolver_of(heard.text)
+        raise InvalidValueError(
+            f'{self.path} does not say which wrist it is of: nothing was recorded on '
+            f'{self.space}step_inputs for a second; record it with `recorder`.'
+        )
+
+    def resolver_of(self, text: str) -> Resolver:
+        """Return what a resolver was, of the parameters that it has told.
+
+        Raises:
+            InvalidValueError: Its wrist is not known here, or is another here.
+        """
+        try:
+            values = json.loads(text)
+            name = values['wrist']
+        except (ValueError, KeyError, TypeError):
+            raise InvalidValueError(
+                f'{self.path} has parameters of a resolver that cannot be read; record it anew.'
+            ) from None
+        if name not in wrist_names():
+            raise InvalidValueError(
+                f'{self.path} is of the wrist {name!r}, which is not known here; the wrists are '
+                f'{", ".join(wrist_names())}.'
+            )
+        try:
+            wrist = limited(mechanism(name, values), values)
+            return Resolver(name, wrist, settings(wrist, values), values)
+        except (KeyError, TypeError, AttributeError) as error:
+            raise InvalidValueError(
+                f'{self.path} is of another version: its {name} has no parameter {error}.'
+            ) from error
+
+
+def _is_ours(topic: str, kind: str) -> bool:
+    return TOPICS.get(topic.rpartition('/')[2]) == kind
+
+
+def stamp_of(message: Any) -> int:
+    """Return when a message is stamped, ns."""
+    stamp = message.header.stamp
+    return int(stamp.sec) * 10**9 + int(stamp.nanosec)
+
+
+def numbers(values: Any) -> tuple[float, ...]:
+    """Return an array of a message as plain floats."""
+    return tuple(np.asarray(values, dtype=float).tolist())
