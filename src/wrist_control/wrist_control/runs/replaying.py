@@ -32,6 +32,7 @@ class Comparison:
         compared: How many joint commands were compared.
         same: How many of them are the same to the last bit.
         unheard: How many joint commands the recording lacks.
+        unmade: How many joint commands it has of steps that could not be made again.
         lost: How many steps the recording lacks.
         commands: How many commands counted in those steps.
         found: How many of those are on the topics of commands as well.
@@ -44,6 +45,7 @@ class Comparison:
     compared: int = 0
     same: int = 0
     unheard: int = 0
+    unmade: int = 0
     lost: int = 0
     commands: int = 0
     found: int = 0
@@ -76,6 +78,11 @@ class Comparison:
             yield (
                 f'{self.lost} steps are not in the recording; after each gap the replay begins '
                 'anew where the hand rests.'
+            )
+        if self.unmade:
+            yield (
+                f'{self.unmade} joint commands are of steps that are not in the recording, or '
+                'from before the hand rested: they were not compared.'
             )
         if self.unheard:
             yield f'{self.unheard} joint commands are not in the recording.'
@@ -131,6 +138,7 @@ class Replay:
                 f'{self._run.path} has no moment at which the hand rests, to begin a replay with; '
                 'begin to record before it moves.'
             )
+        self.comparison.unmade = len(self._told) - self.comparison.compared
         return self.comparison
 
     def _make(self, inputs: Any) -> None:
