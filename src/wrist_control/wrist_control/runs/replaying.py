@@ -18,8 +18,8 @@ from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.feedback import Remembered
 from wrist_control.resolving.period import Mode, PeriodResult
 from wrist_control.resolving.witness import Before, Heard, Kind, WitnessedSupervisor, state_of
-from wrist_control.rotations import Pose
-from wrist_control.runs.run import Resolver, Run, numbers, stamp_of
+from wrist_control.runs.run import Resolver, Run, numbers, stamp_of, twist_of
+from wrist_control.runs.series import pose_of
 
 
 @dataclass
@@ -204,15 +204,10 @@ class Replay:
 def _asked(run: Run) -> set[tuple[float | None, tuple[float, ...]]]:
     """Return every command of the recording, by its stamp, s, and its twist."""
     stamped = {
-        (1e-9 * stamp_of(one) if stamp_of(one) else None, _twist(one.twist))
+        (1e-9 * stamp_of(one) if stamp_of(one) else None, twist_of(one.twist))
         for _, one in run.messages('cmd_vel')
     }
-    return stamped | {(None, _twist(one)) for _, one in run.messages('cmd_vel_unstamped')}
-
-
-def _twist(twist: Any) -> tuple[float, ...]:
-    linear, angular = twist.linear, twist.angular
-    return tuple(float(x) for x in (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
+    return stamped | {(None, twist_of(one)) for _, one in run.messages('cmd_vel_unstamped')}
 
 
 def _heard(one: Any) -> Heard:
@@ -229,12 +224,10 @@ def _heard(one: Any) -> Heard:
 
 
 def _before(resolver: Resolver, inputs: Any) -> Before:
-    x, y, z, *quaternion = numbers(inputs.pose)
-    a1, a2, a3, a4 = quaternion
     state = state_of(
         resolver.wrist,
         numbers(inputs.positions),
-        Pose((a1, a2, a3, a4), (x, y, z)),
+        pose_of(inputs),
         numbers(inputs.steering),
         float(inputs.time_lost),
     )

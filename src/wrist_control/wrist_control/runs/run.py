@@ -157,3 +157,9 @@ def stamp_of(message: Any) -> int:
 def numbers(values: Any) -> tuple[float, ...]:
     """Return an array of a message as plain floats."""
     return tuple(np.asarray(values, dtype=float).tolist())
+
+
+def twist_of(twist: Any) -> tuple[float, ...]:
+    """Return (vx, vy, vz, p, q, r) of a twist of a message."""
+    linear, angular = twist.linear, twist.angular
+    return tuple(float(x) for x in (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z))
