@@ -55,8 +55,8 @@ def progress(console: Console) -> Progress:
 
 
 def _replay(path: Path, space: str, console: Console) -> int:
+    from wrist_control.bags.run import Run
     from wrist_control.runs.replaying import Comparison, Replay
-    from wrist_control.runs.run import Run
 
     with progress(console) as shown:
         reading = shown.add_task('reading', total=1.0)

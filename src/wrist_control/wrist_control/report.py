@@ -34,8 +34,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _report(path: Path, space: str, out: Path | None, console: Console) -> Path:
+    from wrist_control.bags.run import Run
     from wrist_control.runs.page import page
-    from wrist_control.runs.run import Run
     from wrist_control.runs.series import series
 
     with progress(console) as shown:

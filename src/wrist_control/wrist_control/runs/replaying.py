@@ -14,11 +14,12 @@ from typing import Any
 
 import numpy as np
 
+from wrist_control.bags.run import Run, numbers, stamp_of, twist_of
 from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.feedback import Remembered
 from wrist_control.resolving.period import Mode, PeriodResult
 from wrist_control.resolving.witness import Before, Heard, Kind, WitnessedSupervisor, state_of
-from wrist_control.runs.run import Resolver, Run, numbers, stamp_of, twist_of
+from wrist_control.runs.resolver import Resolver, resolver_of
 from wrist_control.runs.series import pose_of
 
 
@@ -162,18 +163,18 @@ class Replay:
     def _begin(self, inputs: Any, heard: list[Heard]) -> None:
         """Begin where the recorded hand rests, once its resolver is known."""
         if heard and heard[0].kind is Kind.PARAMETERS:
-            self._resolver = self._run.resolver_of(heard[0].text)
+            self._resolver = resolver_of(self._run, heard[0].text)
         if self._resolver is not None and inputs.resting:
             _, wrist, settings, _ = self._resolver
             self._supervisor = WitnessedSupervisor(wrist, settings)
             self._supervisor.begin_where(_before(self._resolver, inputs))
         elif any(one.kind is Kind.PARAMETERS for one in heard):
             text = [one.text for one in heard if one.kind is Kind.PARAMETERS][-1]
-            self._resolver = self._run.resolver_of(text)
+            self._resolver = resolver_of(self._run, text)
 
     def _hear(self, supervisor: WitnessedSupervisor, heard: Heard) -> None:
         if heard.kind is Kind.PARAMETERS:
-            self._resolver = self._run.resolver_of(heard.text)
+            self._resolver = resolver_of(self._run, heard.text)
             supervisor.wrist = self._resolver.wrist
             supervisor.settings = self._resolver.settings
             return

@@ -8,12 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wrist_control.bags.run import Run, numbers, stamp_of, twist_of
 from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.limits import LimitKind
 from wrist_control.resolving.report import WristState
 from wrist_control.resolving.witness import state_of
 from wrist_control.rotations import Pose
-from wrist_control.runs.run import Resolver, Run, numbers, stamp_of, twist_of
+from wrist_control.runs.resolver import Resolver, first_resolver
 from wrist_control.wrists.wrist import Positions
 
 # Steps further apart than this many periods are two runs with a gap between them.
@@ -146,7 +147,7 @@ def series(run: Run) -> Series:
     Raises:
         InvalidValueError: It has no step, or its wrist is not known here.
     """
-    resolver = run.resolver()
+    resolver = first_resolver(run)
     inputs = {stamp_of(one): one for _, one in run.messages('step_inputs')}
     told = {stamp_of(one): one for _, one in run.messages('joint_command')}
     statuses = [one for _, one in run.messages('wrist_status') if stamp_of(one) in inputs]

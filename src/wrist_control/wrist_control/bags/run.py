@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from wrist_control.bags.reading import Recording, Stamped
 from wrist_control.errors import InvalidValueError
-from wrist_control.nodes.resolver_settings import limited, mechanism, settings
-from wrist_control.resolving.period import SupervisorSettings
-from wrist_control.resolving.witness import Kind
-from wrist_control.wrists import Wrist, wrist_names
 
 STATUS = 'wrist_interfaces/msg/WristStatus'
 # The topics of a run, and the types that they must have.
@@ -27,22 +22,6 @@ TOPICS = {
     'cmd_vel': 'geometry_msgs/msg/TwistStamped',
     'cmd_vel_unstamped': 'geometry_msgs/msg/Twist',
 }
-
-
-class Resolver(NamedTuple):
-    """What a resolver was, by its parameters.
-
-    Attributes:
-        name: Which wrist it had.
-        wrist: The mechanism, with the limits it kept.
-        settings: What its supervisor was told once.
-        values: All parameters, by name.
-    """
-
-    name: str
-    wrist: Wrist
-    settings: SupervisorSettings
-    values: Mapping[str, Any]
 
 
 class Run:
@@ -101,47 +80,6 @@ class Run:
                 'with --namespace.'
             )
         return found[0]
-
-    def resolver(self) -> Resolver:
-        """Return what the resolver was when the recording began.
-
-        Raises:
-            InvalidValueError: It does not say, or its wrist is not known here.
-        """
-        for _, inputs in self.messages('step_inputs'):
-            for heard in inputs.heard:
-                if heard.kind == Kind.PARAMETERS:
-                    return self.resolver_of(heard.text)
-        raise InvalidValueError(
-            f'{self.path} does not say which wrist it is of: nothing was recorded on '
-            f'{self.space}step_inputs for a second; record it with `recorder`.'
-        )
-
-    def resolver_of(self, text: str) -> Resolver:
-        """Return what a resolver was, of the parameters that it has told.
-
-        Raises:
-            InvalidValueError: Its wrist is not known here, or is another here.
-        """
-        try:
-            values = json.loads(text)
-            name = values['wrist']
-        except (ValueError, KeyError, TypeError):
-            raise InvalidValueError(
-                f'{self.path} has parameters of a resolver that cannot be read; record it anew.'
-            ) from None
-        if name not in wrist_names():
-            raise InvalidValueError(
-                f'{self.path} is of the wrist {name!r}, which is not known here; the wrists are '
-                f'{", ".join(wrist_names())}.'
-            )
-        try:
-            wrist = limited(mechanism(name, values), values)
-            return Resolver(name, wrist, settings(wrist, values), values)
-        except (KeyError, TypeError, AttributeError) as error:
-            raise InvalidValueError(
-                f'{self.path} is of another version: its {name} has no parameter {error}.'
-            ) from error
 
 
 def _is_ours(topic: str, kind: str) -> bool:
