@@ -1,16 +1,13 @@
 """Runs that were recorded, made again: the same joint commands, to the last bit."""
 
 import math
-import os
 import re
 import signal
 import struct
-import subprocess
 
 import pytest
-from geometry_msgs.msg import Twist, TwistStamped
+from geometry_msgs.msg import Twist
 from mcap.reader import make_reader
-from mcap.writer import Writer
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message
@@ -18,58 +15,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Empty
 from std_srvs.srv import SetBool, Trigger
 
-from wrist_control.graph.processes import executable_file
-from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.resolver import Resolver
 from wrist_interfaces.msg import WristStatus
 
-from .recordings import Recorded, file_of
+from .recordings import Recorded, Stick, file_of, rewrite, run
 
 SAME = 'joint commands are the same to the last bit.'
-
-
-def replay(*arguments):
-    """Return the exit code of a replay, and all that it said."""
-    done = subprocess.run(
-        [str(executable_file('replay')), *map(str, arguments)],
-        env=os.environ,
-        capture_output=True,
-        text=True,
-        timeout=100.0,
-        check=False,
-    )
-    assert 'Traceback' not in done.stderr
-    return done.returncode, done.stdout + done.stderr
-
-
-class Stick:
-    """Somebody who commands a resolver, beside whom a recorder listens."""
-
-    def __init__(self, graph, folder, wrist, **parameters):
-        self.graph = graph
-        self.node = f'{wrist}_resolver'
-        self.statuses = graph.listen(WristStatus, 'wrist_status')
-        graph.start(Resolver, wrist, require_joint_states=True, **parameters)
-        graph.start(JointSimulator)
-        self.recorded = Recorded(graph, folder)
-        self.commands = graph.publisher(TwistStamped, 'cmd_vel', listeners=2)
-        graph.until(lambda: graph.outside.count_subscribers('step_inputs'))
-        graph.until(lambda: self.statuses and self.statuses[-1].state != WristStatus.WAITING)
-        graph.spin(1.5)  # so that all parameters were said once more
-
-    def turn(self, seconds, p=0.0, q=0.0, r=0.0):
-        for _ in range(round(50 * seconds)):
-            message = TwistStamped()
-            message.header.stamp = self.graph.outside.get_clock().now().to_msg()
-            message.twist.angular.x, message.twist.angular.y = p, q
-            message.twist.angular.z = r
-            self.commands.publish(message)
-            self.graph.spin(0.02)
-
-    def end(self):
-        self.graph.spin(0.3)
-        code, said = self.recorded.end()
-        assert code == 0, said
 
 
 @pytest.mark.parametrize('wrist', ['four_gimbal', 'pitch_yaw', 'stewart', 'carpal'])
@@ -80,7 +31,7 @@ def test_a_live_run_is_made_again_to_the_last_bit(graph, tmp_path, wrist):
     graph.spin(0.6)  # silence: a ramp to a stop
     stick.turn(0.5, p=-0.2)
     stick.end()
-    code, said = replay(tmp_path / 'run')
+    code, said = run('replay', tmp_path / 'run')
     assert code == 0, said
     assert SAME in said
     count = len(joint_commands(tmp_path / 'run'))
@@ -127,7 +78,7 @@ def test_all_that_people_do_in_between_is_made_again_too(graph, tmp_path):
     stick.end()
     states = {status.state for status in stick.statuses}
     assert {WristStatus.STALE, WristStatus.DISABLED, WristStatus.SCALED} <= states
-    code, said = replay(tmp_path / 'run')
+    code, said = run('replay', tmp_path / 'run')
     assert code == 0, said
     assert SAME in said
     assert ' steps are not in the recording' not in said
@@ -149,7 +100,7 @@ def test_one_that_begins_and_ends_in_motion_is_made_again_from_where_the_hand_re
     twists.publish(turning)
     graph.spin(1.5)
     assert recorded.end(signal.SIGKILL)[0] == -signal.SIGKILL
-    code, said = replay(tmp_path / 'run')
+    code, said = run('replay', tmp_path / 'run')
     assert code == 0, said
     made, recorded_steps = (int(said.split()[at]) for at in (1, 3))
     assert 100 < made < recorded_steps - 100
@@ -168,32 +119,9 @@ def test_one_bit_is_a_difference(graph, tmp_path):
         return data.replace(struct.pack('<d', theta), nudged) if index == count - 5 else data
 
     rewrite(file_of(tmp_path / 'run'), changed, nudge)
-    code, said = replay(changed)
+    code, said = run('replay', changed)
     assert code == 1, said
     assert re.search(r'\b1 of \d+ joint commands differ, first ', said)
     assert 'in theta; by at most ' in said
     rewrite(file_of(tmp_path / 'run'), tmp_path / 'same.mcap', lambda _, data: data)
-    assert replay(tmp_path / 'same.mcap')[0] == 0
-
-
-def rewrite(source, target, change):
-    """Write a recording again, with other joint commands."""
-    with source.open('rb') as stream, target.open('wb') as new:
-        writer = Writer(new)
-        writer.start('ros2')
-        schemas, channels, index = {}, {}, 0
-        for schema, channel, message in make_reader(stream).iter_messages():
-            if schema.id not in schemas:
-                schemas[schema.id] = writer.register_schema(
-                    schema.name, schema.encoding, schema.data
-                )
-            if channel.id not in channels:
-                channels[channel.id] = writer.register_channel(
-                    channel.topic, 'cdr', schemas[schema.id], channel.metadata
-                )
-            data = message.data
-            if channel.topic == '/joint_command':
-                data = change(index, data)
-                index += 1
-            writer.add_message(channels[channel.id], message.log_time, data, message.publish_time)
-        writer.finish()
+    assert run('replay', tmp_path / 'same.mcap')[0] == 0

@@ -16,6 +16,7 @@ NODES = f'{PACKAGE}.nodes'
 # What is no node, and ends by itself.
 COMMANDS = ('replay', 'report')
 INTERRUPTED = 130  # the exit code of a command that Ctrl-C ends
+SHOW_CURSOR = b'\x1b[?25h\n'
 
 
 def __getattr__(name: str) -> partial[None]:
@@ -27,10 +28,8 @@ def __getattr__(name: str) -> partial[None]:
 
 def _start(executable: str) -> None:
     if executable in COMMANDS:
-        signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
-        command = import_module(f'{PACKAGE}.{executable}')
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        sys.exit(command.main())
+        signal.signal(signal.SIGINT, _interrupt)
+        sys.exit(import_module(f'{PACKAGE}.{executable}').main())
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: os._exit(0))
     wrist = executable.removesuffix('_resolver')
@@ -38,3 +37,9 @@ def _start(executable: str) -> None:
         import_module(f'{NODES}.resolver').main(wrist)
     else:
         import_module(f'{NODES}.{executable}').main()
+
+
+def _interrupt(*_: object) -> None:
+    if sys.stdout.isatty():
+        os.write(sys.stdout.fileno(), SHOW_CURSOR)  # which a progress bar has hidden
+    os._exit(INTERRUPTED)

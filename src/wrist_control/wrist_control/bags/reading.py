@@ -9,7 +9,6 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from mcap.exceptions import McapError
 from mcap.records import Channel, Message, Schema
 from mcap.stream_reader import StreamReader
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
@@ -18,8 +17,8 @@ from rosbags.typesys.store import Typestore
 from wrist_control.errors import InvalidValueError
 
 MAGIC = b'\x89MCAP0\r\n'
-# What a reader of a damaged file may come upon.
-DAMAGE = (McapError, OSError, EOFError, ValueError, KeyError, IndexError, AssertionError)
+# No record of a wrist's is larger; of a damaged file one may seem to be.
+LARGEST = 256 * 2**20
 HOW = 'valid is the folder of a recording in MCAP, as `recorder` makes it, or its .mcap file.'
 
 
@@ -100,7 +99,8 @@ class Recording:
         topics: dict[int, str] = {}
         with file.open('rb') as stream:
             try:
-                for record in StreamReader(stream, validate_crcs=True).records:
+                reader = StreamReader(stream, validate_crcs=True, record_size_limit=LARGEST)
+                for record in reader.records:
                     if isinstance(record, Message):
                         if record.channel_id in topics:
                             topic = topics[record.channel_id]
@@ -111,7 +111,7 @@ class Recording:
                         self._take_up(record, schemas.get(record.schema_id), topics)
                     else:
                         yield stream.tell()
-            except DAMAGE:
+            except Exception:  # what is damaged may make its readers raise anything
                 self.cut = (
                     f'{file} is cut off or damaged after {stream.tell()} bytes; what was before '
                     'that is read.'
