@@ -13,6 +13,7 @@ from std_msgs.msg import Header
 
 from wrist_control.resolving.witness import Before, Heard, Kind, WitnessedSupervisor
 from wrist_control.ros.qos import OUTPUT
+from wrist_control.wrists.wrist import Configuration
 from wrist_interfaces.msg import HeardInput, StepInputs
 
 # How often all parameters are said again, s: whoever begins to listen waits no longer for them.
@@ -106,6 +107,7 @@ def _of_before(before: Before) -> StepInputs:
         resting=before.resting,
         adopted=before.adopted,
         positions=[float(x) for x in state.positions],
+        assembled=isinstance(state.positions, Configuration),
         joint_rates=[float(x) for x in state.joint_rates],
         pose=[float(x) for x in (*state.pose.position, *state.pose.quaternion)],
         steering=[float(x) for x in state.steering_state],

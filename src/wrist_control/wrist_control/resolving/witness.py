@@ -19,7 +19,7 @@ from wrist_control.resolving.period import Mode, PeriodResult, SupervisorSetting
 from wrist_control.resolving.state import State
 from wrist_control.resolving.supervisor import Supervisor
 from wrist_control.rotations import Pose
-from wrist_control.wrists.wrist import Configuration, Wrist
+from wrist_control.wrists.wrist import Configuration, Positions, Wrist
 
 # So much is noted between two steps; who is told more, while no steps are made, forgets it.
 MOST = 1000
@@ -83,6 +83,9 @@ class WitnessedSupervisor(Supervisor):
         self.number += 1
         self.heard.clear()
         self.before = self._where()
+        if self.before.resting and isinstance(self.state.positions, Configuration):
+            # An equal pose, but another object: by it nobody knows how it was once found.
+            self.state = self.state._replace(pose=Pose(*self.state.pose))
 
     def note_parameters(self, text: str) -> None:
         """Note that the wrist and the settings are others from here on."""
@@ -172,6 +175,7 @@ class WitnessedSupervisor(Supervisor):
             and not self.state.joint_rates
             and not self._feedback.lagging
             and not any(any(command.twist) for command in asked if command)
+            and self._needs_no_past()
         )
         return Before(
             self.mode,
@@ -181,6 +185,15 @@ class WitnessedSupervisor(Supervisor):
             self._permission.since,
             self._feedback.remembered,
         )
+
+    def _needs_no_past(self) -> bool:
+        """Return whether where the joints are will be found without what was found before.
+
+        A wrist whose positions fit several poses follows its pose from message to message while
+        nobody moves it, and goes on from what it knows of the last.
+        """
+        follows = self.mode is not Mode.FOLLOWING or not self._adopted
+        return not (follows and isinstance(self.state.positions, Configuration))
 
     def begin_where(self, before: Before) -> None:
         """Be where another supervisor was, at rest."""
@@ -203,15 +216,15 @@ class WitnessedSupervisor(Supervisor):
             tell[heard.kind]()
 
 
-def state_of(
-    wrist: Wrist,
-    positions: tuple[float, ...],
-    pose: Pose,
-    steering: tuple[float, ...],
-    time_lost: float,
-    joint_rates: tuple[float, ...] = (),
-) -> State:
-    """Return a state as a supervisor had it, of its plain numbers."""
-    if isinstance(wrist.home, Configuration):
-        return State(wrist.inverse(pose, positions), pose, steering, time_lost, joint_rates)
-    return State(positions, pose, steering, time_lost, joint_rates)
+def positions_of(
+    wrist: Wrist, positions: tuple[float, ...], pose: Pose, assembled: bool
+) -> Positions:
+    """Return joint positions as a supervisor had them.
+
+    Args:
+        wrist: The mechanism.
+        positions: The plain numbers, rad or m.
+        pose: The pose that they hold.
+        assembled: Whether the wrist knew with them which pose that is.
+    """
+    return wrist.inverse(pose, positions) if assembled else positions

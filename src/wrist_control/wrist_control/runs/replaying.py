@@ -18,7 +18,8 @@ from wrist_control.bags.run import Run, numbers, stamp_of, twist_of
 from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.feedback import Remembered
 from wrist_control.resolving.period import Mode, PeriodResult
-from wrist_control.resolving.witness import Before, Heard, Kind, WitnessedSupervisor, state_of
+from wrist_control.resolving.state import State
+from wrist_control.resolving.witness import Before, Heard, Kind, WitnessedSupervisor, positions_of
 from wrist_control.runs.resolver import Resolver, resolver_of
 from wrist_control.runs.series import pose_of
 
@@ -225,10 +226,11 @@ def _heard(one: Any) -> Heard:
 
 
 def _before(resolver: Resolver, inputs: Any) -> Before:
-    state = state_of(
-        resolver.wrist,
-        numbers(inputs.positions),
-        pose_of(inputs),
+    pose = pose_of(inputs)
+    positions = numbers(inputs.positions)
+    state = State(
+        positions_of(resolver.wrist, positions, pose, bool(inputs.assembled)),
+        pose,
         numbers(inputs.steering),
         float(inputs.time_lost),
     )

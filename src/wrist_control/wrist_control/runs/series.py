@@ -12,10 +12,10 @@ from wrist_control.bags.run import Run, numbers, stamp_of, twist_of
 from wrist_control.errors import InvalidValueError
 from wrist_control.resolving.limits import LimitKind
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.witness import state_of
+from wrist_control.resolving.witness import positions_of
 from wrist_control.rotations import Pose
 from wrist_control.runs.resolver import Resolver, first_resolver
-from wrist_control.wrists.wrist import Positions
+from wrist_control.wrists.wrist import Configuration, Positions
 
 # Steps further apart than this many periods are two runs with a gap between them.
 GAP = 5.0
@@ -107,8 +107,9 @@ class Series:
 
     def configuration(self, row: int) -> Positions:
         """Return the joint positions of a step with the pose that they hold, where that counts."""
-        positions = tuple(self.positions[row].tolist())
-        return state_of(self.resolver.wrist, positions, self.poses[row], (), 0.0).positions
+        wrist, positions = self.resolver.wrist, tuple(self.positions[row].tolist())
+        several = isinstance(wrist.home, Configuration)
+        return positions_of(wrist, positions, self.poses[row], several)
 
     def told(self) -> Iterator[Told]:
         """Yield what the operator was told, each sentence once for as long as it stood."""
