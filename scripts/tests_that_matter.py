@@ -23,6 +23,7 @@ FURTHER = {
 PARTS_OF = {
     'nodes/resolver_clock.py': 'nodes.resolver',
     'nodes/resolver_inputs.py': 'nodes.resolver',
+    'nodes/resolver_journal.py': 'nodes.resolver',
     'nodes/resolver_outputs.py': 'nodes.resolver',
     'nodes/resolver_pictures.py': 'nodes.resolver',
     'nodes/resolver_settings.py': 'nodes.resolver',

@@ -15,6 +15,7 @@ from wrist_control.graph.processes import config_file, executable_file
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
+from wrist_control.nodes.recorder import Recorder
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 from wrist_control.ros.command_line import what_is_wrong
@@ -24,6 +25,7 @@ OTHERS = {
     'joint_simulator': JointSimulator,
     'operator': Operator,
     'physics_simulator': PhysicsSimulator,
+    'recorder': Recorder,
     'stewart_forward_kinematics': StewartForwardKinematics,
 }
 EXECUTABLES = [*OTHERS, *(f'{wrist}_resolver' for wrist in WRISTS)]

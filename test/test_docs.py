@@ -14,6 +14,7 @@ from wrist_control.nodes import (
     joint_simulator,
     operator,
     physics_settings,
+    recorder,
     stewart_forward_kinematics,
 )
 from wrist_control.nodes.resolver import Resolver
@@ -150,7 +151,8 @@ def test_the_document_of_the_wrists_is_what_the_code_says(tmp_path):
 
 
 @pytest.mark.parametrize(
-    'node', [operator, joint_simulator, physics_settings, stewart_forward_kinematics]
+    'node',
+    [operator, joint_simulator, physics_settings, recorder, stewart_forward_kinematics],
 )
 def test_every_other_parameter_is_in_the_documents(node):
     missing = [spec.name for spec in node.SPECS if f'`{spec.name}`' not in PARAMETERS]

@@ -9,6 +9,7 @@ import pytest
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
+from wrist_control.nodes.recorder import Recorder
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.stewart_forward_kinematics import StewartForwardKinematics
 
@@ -18,6 +19,7 @@ SECTIONS = {
     'Parameters of stewart_forward_kinematics': (StewartForwardKinematics,),
     'Parameters of the operator': (Operator,),
     'Parameters of the joint simulator': (JointSimulator,),
+    'Parameters of the recorder': (Recorder,),
     'Parameters of the physics simulator': (PhysicsSimulator,),
 }
 # Defaults that the tables say in words, or in units that people think in.

@@ -36,6 +36,7 @@ def test_every_executable_of_the_contract_is_installed():
     names = {path.name for path in EXECUTABLES.iterdir()}
     resolvers = {f'{wrist}_resolver' for wrist in WRISTS}
     others = {'operator', 'joint_simulator', 'physics_simulator', 'stewart_forward_kinematics'}
+    others |= {'recorder', 'replay', 'report'}
     assert others | resolvers <= names
 
 

@@ -103,7 +103,7 @@ def test_one_that_begins_and_ends_in_motion_is_made_again_from_where_the_hand_re
     code, said = run('replay', tmp_path / 'run')
     assert code == 0, said
     made, recorded_steps = (int(said.split()[at]) for at in (1, 3))
-    assert 100 < made < recorded_steps - 100
+    assert 20 < made < recorded_steps - 20
 
 
 def test_one_bit_is_a_difference(graph, tmp_path):

@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from wrist_control.bags import check_installed
 from wrist_control.errors import WristError
+from wrist_control.runs.terminal import add_run, progress
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -33,25 +33,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except WristError as error:
         print(f'Cannot replay: {error}', file=sys.stderr)
         return 2
-
-
-def add_run(parser: argparse.ArgumentParser) -> None:
-    """Add the arguments that say which run is meant."""
-    parser.add_argument('run', type=Path, help='folder of a recording, or its .mcap file')
-    parser.add_argument(
-        '--namespace', default='', help='whose run, where a recording has several wrists'
-    )
-
-
-def progress(console: Console) -> Progress:
-    """Return how far long work is, shown until it is done."""
-    return Progress(
-        TextColumn('{task.description:<24}'),
-        BarColumn(),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-    )
 
 
 def _replay(path: Path, space: str, console: Console) -> int:

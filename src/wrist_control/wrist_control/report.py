@@ -11,7 +11,7 @@ from rich.console import Console
 
 from wrist_control.bags import check_installed
 from wrist_control.errors import InvalidValueError, WristError
-from wrist_control.replay import add_run, progress
+from wrist_control.runs.terminal import add_run, progress
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
