@@ -34,7 +34,6 @@ EASING = 'resolving/easing.py'
 JOYSTICK = 'operating/joystick.py'
 STEWART, FOUR, THREE = 'wrists/stewart.py', 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
-RECEIPT = 'receipt_time=self._step_clock.receipt_time()'
 STEADY = 'return convert.seconds_of(self._node.steady.now().nanoseconds)'
 CAUGHT = '            except Exception as error:\n                return'
 MISSED = CAUGHT.replace('Exception', 'KeyError')
@@ -67,14 +66,24 @@ CHOSEN = tuple(
             'stamp_time, now = self._clock.stamp_time(), 0.0',
             'a command is old as soon as it comes',
         ),
-        (NODE, f'{RECEIPT},\n                    withheld', 'receipt_time=0.0, withheld', 'ages'),
+        (
+            NODE,
+            'receipt_time=now,\n                withheld',
+            'receipt_time=0.0, withheld',
+            'ages',
+        ),
         (
             NODE,
             'now = self._step_clock.receipt_time()\n        try:',
             'now = 0.0\n        try:',
             'joint states are old as soon as they come',
         ),
-        (NODE, 'withheld=self._inputs.withheld(),', '', 'moves without the dead-man switch'),
+        (
+            NODE,
+            'withheld=withheld,\n                pause',
+            'pause',
+            'moves without the dead-man switch',
+        ),
         (INPUTS, 'self._sources.admit(origin, now, timeout)', 'pass', 'two operators shake it'),
         (INPUTS, 'self._on_stop, qos)', 'print, qos)', 'a stop is not heard'),
         (CLOCK, 'if self._watch.look(now, steady):', 'if False:', 'moves without a clock'),
@@ -176,7 +185,12 @@ CHOSEN = tuple(
         ('resolving/homing.py', '< 1e-9', '< 1e-3', 'a reset ends beside its goal'),
         # The operator.
         (OPERATOR, "< self._values['listeners']", '< 1', 'a maneuver begins without the joints'),
-        (OPERATOR, 'and not self._is_heard()', 'and False', 'a maneuver begins unheard'),
+        (
+            OPERATOR,
+            'if self._pilot.began is None and not self._is_heard():',
+            'if False:',
+            'a maneuver begins unheard',
+        ),
         (
             JOYSTICK,
             'if self.enable_button >= 0 and not buttons[self.enable_button]:',

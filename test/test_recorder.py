@@ -1,9 +1,11 @@
 """The recorder as people run it, and its files as other programs read them."""
 
 import os
+import random
 import resource
 import signal
 import subprocess
+import time
 
 import pytest
 import yaml
@@ -214,6 +216,20 @@ def test_a_full_disk_ends_the_recording_with_a_sentence_and_keeps_what_fitted(gr
     assert texts <= set(noise)
     assert len(by_mcap(tmp_path / 'run')['/noise']) > 10
     assert file_of(tmp_path / 'run').stat().st_size <= size
+
+
+@pytest.mark.parametrize('clock', ['false', 'true'])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_it_ends_well_whenever_it_is_stopped(graph, tmp_path, clock, number):
+    for attempt, delay in enumerate((0.3, 0.9, random.uniform(0.5, 2.0))):
+        folder = tmp_path / f'run_{attempt}'
+        recorded = Recorded(graph, folder, '-p', f'use_sim_time:={clock}')
+        time.sleep(delay)
+        code, said = recorded.end(number)
+        assert code == 0, said
+        assert 'Traceback' not in said
+        if folder.exists():
+            by_rosbags(folder)
 
 
 def test_without_the_extra_it_says_how_to_get_it(process_environment):

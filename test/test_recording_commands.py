@@ -17,7 +17,7 @@ from wrist_control.graph.processes import executable_file
 from wrist_control.nodes.operator import Operator
 
 from .conftest import Graph
-from .recordings import Stick, file_of, rewrite, run
+from .recordings import Stick, by_rosbags, file_of, rewrite, run
 
 COMMANDS = ('replay', 'report')
 
@@ -207,6 +207,29 @@ def test_a_report_is_one_page_that_loads_nothing(tmp_path, good):
         'joint_rate_limits',
     ):
         assert word in words, word
+
+
+def test_its_numbers_are_those_that_were_recorded(tmp_path, good):
+    assert run('report', good, '--out', tmp_path / 'run.html')[0] == 0
+    words = ' '.join(Page((tmp_path / 'run.html').read_text()).words)
+    read = by_rosbags(good)
+    stamps = {stamp(one) for _, _, one in read['/step_inputs']}
+    statuses = [one for _, _, one in read['/wrist_status'] if stamp(one) in stamps]
+    closest = min(statuses, key=lambda one: one.margin)
+    at = 1e-9 * (stamp(closest) - stamp(statuses[0]))
+    assert f' smallest margin, at 0:{at:04.1f} {closest.margin:.3f} ' in words
+    lost = statuses[-1].time_lost - statuses[0].time_lost
+    assert lost > 0.05
+    assert f' lost by slowing down {lost:.2f} s ' in words
+    asked = [one for one in statuses if any(vars(one.commanded.angular).values())]
+    share = 100.0 * sum(one.scale_factor for one in asked) / len(asked)
+    assert f' of the commanded rates was followed {share:.0f} % ' in words
+    told = [one.message for one in statuses]
+    assert {'Ready: no motion is commanded.', 'Following the command.'} <= set(told)
+
+
+def stamp(message):
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
 
 
 def test_nobody_s_words_become_part_of_a_page(tmp_path, good):

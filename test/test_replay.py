@@ -15,10 +15,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Empty
 from std_srvs.srv import SetBool, Trigger
 
+from wrist_control.nodes.joint_simulator import JointSimulator
+from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.resolver import Resolver
 from wrist_interfaces.msg import WristStatus
 
-from .recordings import Recorded, Stick, file_of, rewrite, run
+from .recordings import Recorded, Stick, by_rosbags, file_of, rewrite, run
 
 SAME = 'joint commands are the same to the last bit.'
 
@@ -41,6 +43,31 @@ def test_a_live_run_is_made_again_to_the_last_bit(graph, tmp_path, wrist):
     assert count - 50 < compared <= count
     if compared < count:
         assert f'{count - compared} joint commands are of steps that are not in the' in said
+
+
+@pytest.mark.parametrize('clock', ['false', 'true'])
+def test_a_run_on_a_simulated_clock_is_made_again_too(graph, tmp_path, clock):
+    ticks = graph.lockstep(1.0 / 32.0)
+    on_it = {'use_sim_time': True, 'rate': 32.0}
+    graph.start(Resolver, 'three_gimbal', require_joint_states=True, **on_it)
+    graph.start(JointSimulator, **on_it)
+    ticks.listen({'wrist_status': WristStatus, 'joint_command': JointState})
+    recorded = Recorded(graph, tmp_path / 'run', '-p', f'use_sim_time:={clock}')
+    graph.until(lambda: graph.outside.count_subscribers('step_inputs'))
+    ticks.begin()
+    graph.start(Operator, maneuver='basic_test', speed=2.0, **on_it)
+    graph.until(lambda: graph.outside.count_publishers('cmd_vel'))
+    for _ in range(120):
+        ticks.tick()
+    code, said = recorded.end()
+    assert code == 0, said
+    code, said = run('replay', tmp_path / 'run')
+    assert code == 0, said
+    assert int(re.search(r'All (\d+) joint commands', said)[1]) >= 110
+    ours = [one.position for one in joint_commands(tmp_path / 'run')]
+    assert ours[-100:] == [one.position for one in ticks.heard['joint_command'][-100:]]
+    times = [when for when, _, _ in by_rosbags(tmp_path / 'run')['/joint_command']]
+    assert (max(times) < 10**12) == (clock == 'true')  # on a clock that began at 10 s
 
 
 def joint_commands(folder):

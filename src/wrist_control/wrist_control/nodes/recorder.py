@@ -87,9 +87,9 @@ class Recorder(GuardedNode):
             return
         if self._bag is None:
             self._keep(self._begin)
-        for topic, types in self.get_topic_names_and_types():
+        for topic, _ in self.get_topic_names_and_types():
             if self._bag and self._belongs(topic) and topic not in self._numbers:
-                self._listen(self._bag, topic, types)
+                self._listen(self._bag, topic)
 
     def _begin(self) -> None:
         from wrist_control.bags.writing import BagWriter
@@ -105,13 +105,15 @@ class Recorder(GuardedNode):
         space = self.get_namespace().rstrip('/') + '/'
         return topic.startswith(space) and (space != '/' or topic.count('/') == 1)
 
-    def _listen(self, bag: BagWriter, topic: str, types: list[str]) -> None:
-        publishers = self.get_publishers_info_by_topic(topic)
-        known = publishers or self.get_subscriptions_info_by_topic(topic)
-        if not known or topic in self._not_recorded:
+    def _listen(self, bag: BagWriter, topic: str) -> None:
+        if topic in self._not_recorded:
             return
-        kind = known[0].topic_type
         try:
+            publishers = self.get_publishers_info_by_topic(topic)
+            known = publishers or self.get_subscriptions_info_by_topic(topic)
+            if not known:
+                return
+            kind = known[0].topic_type
             text, made = definition(kind), message_class(kind)
         except (InvalidValueError, ValueError) as error:
             self._not_recorded[topic] = shown(str(error))
