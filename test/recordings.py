@@ -15,6 +15,8 @@ from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.resolver import Resolver
 from wrist_interfaces.msg import WristStatus
 
+from .conftest import Graph
+
 
 class Recorded:
     """A recorder as a process of its own."""
@@ -100,6 +102,20 @@ class Stick:
         self.graph.spin(0.3)
         code, said = self.recorded.end()
         assert code == 0, said
+
+
+def a_run(folder):
+    """Record a run of a three-gimbal wrist, which pitches, rests, and rolls back."""
+    graph = Graph()
+    try:
+        stick = Stick(graph, folder, 'three_gimbal')
+        stick.turn(0.8, q=0.4)
+        stick.turn(0.4)
+        stick.turn(0.4, p=-0.2, r=0.1)
+        stick.end()
+    finally:
+        graph.close()
+    return folder
 
 
 def run(command, *arguments):

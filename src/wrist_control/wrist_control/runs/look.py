@@ -37,7 +37,7 @@ h2 { font-size: 1.05rem; margin: 0 0 0.5rem; }
   font-variant-numeric: tabular-nums;
 }
 .numbers dt { color: var(--muted); font-size: 0.85rem; line-height: 1.3; }
-.figures { columns: 21rem 3; column-gap: 0.75rem; }
+.figures { columns: 21rem 3; column-gap: 0.75rem; margin-bottom: 0.75rem; }
 figure { break-inside: avoid; }
 figure, section {
   margin: 0 0 0.75rem; background: var(--card); border-radius: 0.6rem; padding: 0.9rem;
