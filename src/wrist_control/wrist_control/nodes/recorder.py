@@ -62,6 +62,7 @@ class Recorder(GuardedNode):
         self._bag: BagWriter | None = None
         self._ended = ''
         self._numbers: dict[str, int] = {}
+        self._from_the_first: set[str] = set()
         self._lost: dict[str, int] = {}
         self._told = 0
         self._not_recorded: dict[str, str] = {}
@@ -126,6 +127,8 @@ class Recorder(GuardedNode):
 
         channel = bag.add(Topic(topic, kind, text, hashed, offers))
         self._numbers[topic] = 0
+        if not publishers:
+            self._from_the_first.add(topic)
         hear = partial(self._on_message, topic, channel)
         heard = Informed(self, made, topic, hear, _listening(lasting), raw=True)
         self._hidden.append(heard.subscription)
@@ -135,7 +138,8 @@ class Recorder(GuardedNode):
     ) -> None:
         number = info['publication_sequence_number'] or 0
         last, self._numbers[topic] = self._numbers[topic], number
-        if publishers == 1 and 0 < last < number - 1:
+        whole = last > 0 or topic in self._from_the_first
+        if publishers == 1 and whole and last < number - 1:
             self._lost[topic] = self._lost.get(topic, 0) + number - last - 1
         if self._ended or self._bag is None:
             return

@@ -79,7 +79,7 @@ def hand_rates(series: Series) -> str:
             _line(axes, series, commanded, INK, 'commanded', width=0.8, style='--')
             axes.set_ylabel(f'{names[component]}, {unit}')
             _at_least(axes, 1.0)
-        panels[0].legend(**_above())
+        _legend(panels[0])
         return _svg(figure, 'hand')
 
 
@@ -96,7 +96,7 @@ def joint_rates(series: Series) -> str:
         for end in (-100.0, 100.0):
             axes.axhline(end, color=MUTED, linewidth=0.8, linestyle=':')
         axes.set_ylabel(f'% {unit}')
-        axes.legend(**_above())
+        _legend(axes)
         return _svg(figure, 'joints')
 
 
@@ -144,7 +144,7 @@ def positions(series: Series) -> str:
             values = factor * series.positions[:, column]
             _line(axes, series, values, LINES[column % len(LINES)], name, _width(column))
             axes.set_ylabel(unit)
-        axes.legend(**_above())
+        _legend(axes)
         return _svg(figure, 'positions')
 
 
@@ -155,7 +155,7 @@ def tip(series: Series) -> str:
         for column, name in enumerate('xyz'):
             _line(axes, series, series.tip[:, column] / MM, LINES[column], name)
         axes.set_ylabel('mm')
-        axes.legend(**_above())
+        _legend(axes)
         return _svg(figure, 'tip')
 
 
@@ -185,18 +185,19 @@ def _figure(count: int, height: float) -> tuple[Figure, Sequence[Axes]]:
     return figure, list(panels)
 
 
-def _above() -> dict[str, Any]:
-    return {
-        'loc': 'lower left',
-        'bbox_to_anchor': (0.0, 1.0),
-        'frameon': False,
-        'ncols': 6,
-        'borderaxespad': 0.0,
-        'borderpad': 0.2,
-        'handlelength': 1.4,
-        'columnspacing': 1.0,
-        'fontsize': 10.0,
-    }
+def _legend(axes: Axes) -> None:
+    """Name the lines above a panel, where none of them can be."""
+    names = len(axes.get_legend_handles_labels()[1])
+    axes.legend(
+        loc='lower left',
+        bbox_to_anchor=(0.0, 1.0),
+        frameon=False,
+        ncols=names if names <= 4 else 3,
+        borderaxespad=0.0,
+        borderpad=0.2,
+        handlelength=1.4,
+        columnspacing=1.0,
+    )
 
 
 def _line(
