@@ -2,6 +2,7 @@
 
 import os
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -134,6 +135,30 @@ def test_killed_at_any_moment_it_leaves_whole_messages(graph, tmp_path, count):
     assert len(by_rosbags(tmp_path / 'run')['/cmd_vel']) == len(numbers)
 
 
+def test_what_it_missed_is_counted(graph, tmp_path):
+    """Held up for longer than messages wait for it, it loses some, and knows how many."""
+    recorded = Recorded(graph, tmp_path / 'run')
+    publisher = graph.publisher(String, 'noise')
+    publisher.publish(String(data='first'))
+    graph.spin(0.5)
+    recorded.process.send_signal(signal.SIGSTOP)
+    for number in range(3000):
+        publisher.publish(String(data=str(number)))
+        if number % 50 == 0:
+            graph.spin(0.005)
+    recorded.process.send_signal(signal.SIGCONT)
+    graph.spin(1.0)
+    publisher.publish(String(data='last'))
+    graph.spin(0.5)
+    code, said = recorded.end()
+    assert code == 0, said
+    lost = int(re.search(r', (\d+) lost: ', said)[1])
+    kept = [message.data for _, _, message in by_rosbags(tmp_path / 'run')['/noise']]
+    assert (kept[0], kept[-1]) == ('first', 'last')
+    assert lost > 0
+    assert len(kept) + lost == 3002
+
+
 def test_it_hears_what_was_said_before_it_came(graph, tmp_path):
     publisher = graph.outside.create_publisher(JointState, 'initial_joints', LASTING)
     publisher.publish(JointState(name=['psi']))
@@ -176,7 +201,7 @@ def test_a_folder_that_is_there_is_left_alone(graph, tmp_path):
     assert list((tmp_path / 'run').iterdir()) == []
 
 
-@pytest.mark.parametrize('place', ['file/run', 'closed/run'])
+@pytest.mark.parametrize('place', ['file/run', 'closed/run', '/proc/run'])
 def test_where_nothing_may_be_written_it_says_so(graph, tmp_path, place):
     (tmp_path / 'file').write_text('')
     (tmp_path / 'closed').mkdir(mode=0o500)
@@ -184,7 +209,8 @@ def test_where_nothing_may_be_written_it_says_so(graph, tmp_path, place):
         pytest.skip('whoever may write everywhere is never refused')
     code, said = Recorded(graph, tmp_path / place).wait()
     assert code == 2
-    assert 'cannot be made, for nothing may be written in' in said
+    assert f'Cannot start: {tmp_path / place} cannot be made (' in said
+    assert 'valid is a folder where you may write.' in said
 
 
 def test_a_full_disk_ends_the_recording_with_a_sentence_and_keeps_what_fitted(graph, tmp_path):

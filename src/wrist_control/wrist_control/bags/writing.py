@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import IO, Any, NamedTuple, cast
 
@@ -55,14 +54,13 @@ def check_free(folder: Path) -> None:
             f'{folder} is there already; valid is a folder that is not, so that no recording is '
             'lost.'
         )
-    parent = folder.absolute().parent
-    while not parent.exists():
-        parent = parent.parent
-    if not (parent.is_dir() and os.access(parent, os.W_OK | os.X_OK)):
+    try:
+        folder.mkdir(parents=True)
+        folder.rmdir()  # whoever only asks shall leave nothing
+    except OSError as error:
         raise InvalidValueError(
-            f'{folder} cannot be made, for nothing may be written in {parent}; valid is a folder '
-            'where you may write.'
-        )
+            f'{folder} cannot be made ({error.strerror}); valid is a folder where you may write.'
+        ) from error
 
 
 class BagWriter:
