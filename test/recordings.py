@@ -89,12 +89,12 @@ class Stick:
         graph.until(lambda: self.statuses and self.statuses[-1].state != WristStatus.WAITING)
         graph.spin(1.5)  # so that all parameters were said once more
 
-    def turn(self, seconds, p=0.0, q=0.0, r=0.0):
+    def turn(self, seconds, p=0.0, q=0.0, r=0.0, x=0.0):
         for _ in range(round(50 * seconds)):
             message = TwistStamped()
             message.header.stamp = self.graph.outside.get_clock().now().to_msg()
             message.twist.angular.x, message.twist.angular.y = p, q
-            message.twist.angular.z = r
+            message.twist.angular.z, message.twist.linear.x = r, x
             self.commands.publish(message)
             self.graph.spin(0.02)
 

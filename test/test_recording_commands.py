@@ -14,8 +14,9 @@ from rosbags.typesys import Stores, get_typestore
 
 from wrist_control.graph.processes import executable_file
 from wrist_control.nodes.operator import Operator
+from wrist_control.resolving.witness import Kind
 
-from .recordings import a_run, file_of, rewrite, run
+from .recordings import Stick, a_run, by_rosbags, file_of, rewrite, run
 
 COMMANDS = ('replay', 'report')
 
@@ -202,3 +203,34 @@ def test_the_operator_gives_the_recorded_commands_again(graph, good):
     assert spells[:-4] in ([], [still])
     pitching = sum(one == (0.0, 0.4, 0.0) for one in asked) / 50.0
     assert pitching == pytest.approx(0.8, rel=0.5)
+
+
+def test_the_operator_travels_too_and_holds_a_last_command_as_long_as_the_resolver_did(
+    graph, tmp_path
+):
+    stick = Stick(graph, tmp_path / 'run', 'stewart', command_timeout=0.4)
+    stick.turn(0.4, x=0.02)
+    graph.spin(1.0)
+    stick.turn(0.2, x=-0.02)
+    stick.end()
+    given = [
+        (one.receipt_time, one.values[0])
+        for _, _, inputs in by_rosbags(tmp_path / 'run')['/step_inputs']
+        for one in inputs.heard
+        if one.kind == Kind.COMMAND
+    ]
+    first = [when for when, x in given if x == 0.02]
+    clock = graph.lockstep(1.0 / 50.0)
+    twice = {'maneuver': 'recording', 'recording': str(tmp_path / 'run')}
+    graph.start(Operator, use_sim_time=True, rate=50.0, namespace='again', listeners=1, **twice)
+    clock.listen({'again/cmd_vel': TwistStamped})
+    clock.begin()
+    for _ in range(150):
+        clock.tick()
+    travels = [one.twist.linear.x for one in clock.heard['again/cmd_vel']]
+    there = travels.count(0.02)
+    assert there / 50.0 == pytest.approx(first[-1] - first[0] + 0.4, abs=0.05)
+    begin = travels.index(0.02)
+    assert travels[begin : begin + there] == [0.02] * there
+    assert travels.index(-0.02) > begin + there + 10
+    assert travels[-1] == 0.0

@@ -4,6 +4,7 @@ import math
 import re
 import signal
 import struct
+import time
 
 import pytest
 from geometry_msgs.msg import Twist
@@ -43,6 +44,19 @@ def test_a_live_run_is_made_again_to_the_last_bit(graph, tmp_path, wrist):
     assert count - 50 < compared <= count
     if compared < count:
         assert f'{count - compared} joint commands are of steps that are not in the' in said
+
+
+def test_steps_that_come_late_are_made_again_as_they_came(graph, tmp_path):
+    patient = {'command_timeout': 5.0, 'feedback_timeout': 5.0}
+    stick = Stick(graph, tmp_path / 'run', 'three_gimbal', **patient)
+    for _ in range(3):
+        stick.turn(0.3, q=0.4)
+        time.sleep(0.3)  # the resolver is in this process: it makes no step, either
+        stick.turn(0.2, q=-0.3)
+    stick.end()
+    code, said = run('replay', tmp_path / 'run')
+    assert code == 0, said
+    assert SAME in said
 
 
 @pytest.mark.parametrize('clock', ['false', 'true'])
