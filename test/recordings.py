@@ -13,6 +13,7 @@ from rosbags.highlevel import AnyReader
 from wrist_control.graph.processes import executable_file
 from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.resolver import Resolver
+from wrist_control.resolving.witness import Kind
 from wrist_interfaces.msg import WristStatus
 
 from .conftest import Graph
@@ -63,6 +64,21 @@ def by_rosbags(folder):
                 (when, bytes(data), reader.deserialize(data, connection.msgtype))
             )
     return found
+
+
+def stamp(message):
+    """Return when a message is stamped, ns."""
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+
+
+def commands_of(folder):
+    """Return when each command that counted came, s, and its twist."""
+    return [
+        (one.receipt_time, tuple(one.values.tolist()))
+        for _, _, inputs in by_rosbags(folder)['/step_inputs']
+        for one in inputs.heard
+        if one.kind == Kind.COMMAND
+    ]
 
 
 def by_mcap(folder):

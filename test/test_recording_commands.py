@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import time
+from itertools import pairwise
 
 import pytest
 from geometry_msgs.msg import TwistStamped
@@ -14,9 +15,9 @@ from rosbags.typesys import Stores, get_typestore
 
 from wrist_control.graph.processes import executable_file
 from wrist_control.nodes.operator import Operator
-from wrist_control.resolving.witness import Kind
+from wrist_control.ros.convert import twist_values
 
-from .recordings import Stick, a_run, by_rosbags, file_of, rewrite, run
+from .recordings import Stick, a_run, commands_of, file_of, rewrite, run
 
 COMMANDS = ('replay', 'report')
 
@@ -183,26 +184,30 @@ def test_ctrl_c_ends_it_without_a_traceback(good, command):
     assert running.returncode in (0, 130)
 
 
-def test_the_operator_gives_the_recorded_commands_again(graph, good):
+def flown(graph, folder):
+    """Return (vx, vy, vz, p, q, r) at each of fifty ticks a second, until all is flown."""
     clock = graph.lockstep(1.0 / 50.0)
-    graph.start(Operator, use_sim_time=True, rate=50.0, maneuver='recording', recording=str(good))
-    clock.listen({'cmd_vel': TwistStamped})
+    chosen = {'maneuver': 'recording', 'recording': str(folder), 'namespace': 'again'}
+    graph.start(Operator, use_sim_time=True, rate=50.0, **chosen)
+    clock.listen({'again/cmd_vel': TwistStamped})
     clock.begin()
-    graph.until(lambda: graph.outside.count_publishers('cmd_vel'))
-    for _ in range(150):
+    given = commands_of(folder)
+    for _ in range(round(50.0 * (given[-1][0] - given[0][0])) + 75):
         clock.tick()
-    turns = [one.twist.angular for one in clock.heard['cmd_vel']]
-    asked = [(turn.x, turn.y, turn.z) for turn in turns]
-    spells = [asked[0]]
-    for one in asked:
-        if one != spells[-1]:
-            spells.append(one)
-    still = (0.0, 0.0, 0.0)
-    wanted = [(0.0, 0.4, 0.0), still, (-0.2, 0.0, 0.1), still]
-    assert spells[-4:] == wanted
-    assert spells[:-4] in ([], [still])
-    pitching = sum(one == (0.0, 0.4, 0.0) for one in asked) / 50.0
-    assert pitching == pytest.approx(0.8, rel=0.5)
+    return [twist_values(one.twist) for one in clock.heard['again/cmd_vel']]
+
+
+def test_the_operator_gives_the_recorded_commands_again(graph, good):
+    asked = flown(graph, good)
+    still = (0.0,) * 6
+    moving = [one for one in asked if one != still]
+    turned = {one: moving.count(one) for one in moving}
+    pitch, roll = (0.0, 0.0, 0.0, 0.0, 0.4, 0.0), (0.0, 0.0, 0.0, -0.2, 0.0, 0.1)
+    assert list(turned) == [pitch, roll]
+    assert moving == [pitch] * turned[pitch] + [roll] * turned[roll]
+    assert asked[-1] == still
+    held = [when for when, twist in commands_of(good) if twist == pitch]
+    assert turned[pitch] / 50.0 == pytest.approx(held[-1] - held[0], abs=0.3)
 
 
 def test_the_operator_travels_too_and_holds_a_last_command_as_long_as_the_resolver_did(
@@ -213,24 +218,10 @@ def test_the_operator_travels_too_and_holds_a_last_command_as_long_as_the_resolv
     graph.spin(1.0)
     stick.turn(0.2, x=-0.02)
     stick.end()
-    given = [
-        (one.receipt_time, one.values[0])
-        for _, _, inputs in by_rosbags(tmp_path / 'run')['/step_inputs']
-        for one in inputs.heard
-        if one.kind == Kind.COMMAND
-    ]
-    first = [when for when, x in given if x == 0.02]
-    clock = graph.lockstep(1.0 / 50.0)
-    twice = {'maneuver': 'recording', 'recording': str(tmp_path / 'run')}
-    graph.start(Operator, use_sim_time=True, rate=50.0, namespace='again', listeners=1, **twice)
-    clock.listen({'again/cmd_vel': TwistStamped})
-    clock.begin()
-    for _ in range(150):
-        clock.tick()
-    travels = [one.twist.linear.x for one in clock.heard['again/cmd_vel']]
-    there = travels.count(0.02)
-    assert there / 50.0 == pytest.approx(first[-1] - first[0] + 0.4, abs=0.05)
-    begin = travels.index(0.02)
-    assert travels[begin : begin + there] == [0.02] * there
-    assert travels.index(-0.02) > begin + there + 10
+    times = [when for when, twist in commands_of(tmp_path / 'run') if twist[0] == 0.02]
+    held = sum(min(b - a, 0.4) for a, b in pairwise(times)) + 0.4
+    travels = [one[0] for one in flown(graph, tmp_path / 'run')]
+    assert travels.count(0.02) / 50.0 == pytest.approx(held, abs=0.1)
+    last = len(travels) - 1 - travels[::-1].index(0.02)
+    assert travels.index(-0.02) > last + 10
     assert travels[-1] == 0.0

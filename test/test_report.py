@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from .recordings import a_run, by_rosbags, file_of, rewrite, run
+from .recordings import a_run, by_rosbags, file_of, rewrite, run, stamp
 
 
 @pytest.fixture(scope='module')
@@ -83,10 +83,6 @@ def test_its_numbers_are_those_that_were_recorded(tmp_path, good):
     assert f' of the commanded rates was followed {share:.0f} % ' in words
     told = [one.message for one in statuses]
     assert {'Ready: no motion is commanded.', 'Following the command.'} <= set(told)
-
-
-def stamp(message):
-    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
 
 
 def test_nobody_s_words_become_part_of_a_page(tmp_path, good):
