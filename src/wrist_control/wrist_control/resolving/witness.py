@@ -102,7 +102,9 @@ class WitnessedSupervisor(Supervisor):
     ) -> None:
         """Do as every supervisor; joints of others are not noted."""
         own = {joint.name for joint in self.wrist.joints}
-        mine = [pair for pair in zip(names, positions, strict=False) if pair[0] in own]
+        # Whoever says more than that is refused, and shall cost nothing here.
+        said = zip(names[:MOST], positions, strict=False)
+        mine = [pair for pair in said if pair[0] in own]
         heard = Heard(
             Kind.JOINTS,
             receipt_time,
