@@ -35,7 +35,6 @@ PLATFORM, STEWART = 'wrists/platform.py', 'wrists/stewart.py'
 FOUR, THREE = 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
 SPARE, AXES, URDF = 'wrists/spare_joint.py', 'wrists/three_axes.py', 'wrists/urdf.py'
 CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
-RECEIPT = 'receipt_time=self._step_clock.receipt_time()'
 STEADY = 'return convert.seconds_of(self._node.steady.now().nanoseconds)'
 CAUGHT = '            except Exception as error:\n                return'
 MISSED = CAUGHT.replace('Exception', 'KeyError')
@@ -68,14 +67,14 @@ CHOSEN = tuple(
             'stamp_time, now = self._clock.stamp_time(), 0.0',
             'a command is old as soon as it comes',
         ),
-        (NODE, f'{RECEIPT},\n                    withheld', 'receipt_time=0.0, withheld', 'ages'),
+        (NODE, 'receipt_time=now,', 'receipt_time=0.0,', 'ages'),
         (
             NODE,
             'now = self._step_clock.receipt_time()\n        try:',
             'now = 0.0\n        try:',
             'joint states are old as soon as they come',
         ),
-        (NODE, 'withheld=self._inputs.withheld(),', '', 'moves without the dead-man switch'),
+        (NODE, 'withheld=withheld,', '', 'moves without the dead-man switch'),
         (INPUTS, 'self._sources.admit(origin, now, timeout)', 'pass', 'two operators shake it'),
         (INPUTS, 'self._on_stop, qos)', 'print, qos)', 'a stop is not heard'),
         (CLOCK, 'if self._watch.look(now, steady):', 'if False:', 'moves without a clock'),
@@ -177,7 +176,12 @@ CHOSEN = tuple(
         ('resolving/homing.py', '< 1e-9', '< 1e-3', 'a reset ends beside its goal'),
         # The operator.
         (OPERATOR, "< self._values['listeners']", '< 1', 'a maneuver begins without the joints'),
-        (OPERATOR, 'and not self._is_heard()', 'and False', 'a maneuver begins unheard'),
+        (
+            OPERATOR,
+            'if self._pilot.began is None and',
+            'if False and',
+            'a maneuver begins unheard',
+        ),
         (
             JOYSTICK,
             'if not self.is_enabled(buttons):',

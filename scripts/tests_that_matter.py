@@ -25,6 +25,7 @@ PARTS_OF = {
     'nodes/keyboard_terminal.py': 'nodes.keyboard',
     'nodes/resolver_clock.py': 'nodes.resolver',
     'nodes/resolver_inputs.py': 'nodes.resolver',
+    'nodes/resolver_journal.py': 'nodes.resolver',
     'nodes/resolver_outputs.py': 'nodes.resolver',
     'nodes/resolver_pictures.py': 'nodes.resolver',
     'nodes/resolver_settings.py': 'nodes.resolver',

@@ -16,6 +16,7 @@ from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
+from wrist_control.nodes.recorder import Recorder
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.rotary_stewart_forward_kinematics import (
     RotaryStewartForwardKinematics,
@@ -30,6 +31,7 @@ OTHERS = {
     'operator': Operator,
     'physics_simulator': PhysicsSimulator,
     'rotary_stewart_forward_kinematics': RotaryStewartForwardKinematics,
+    'recorder': Recorder,
     'stewart_forward_kinematics': StewartForwardKinematics,
 }
 EXECUTABLES = [*OTHERS, *(f'{wrist}_resolver' for wrist in WRISTS)]

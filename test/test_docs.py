@@ -15,6 +15,7 @@ from wrist_control.nodes import (
     keyboard,
     operator,
     physics_settings,
+    recorder,
     rotary_stewart_forward_kinematics,
     stewart_forward_kinematics,
 )
@@ -181,6 +182,7 @@ def test_the_document_of_the_wrists_is_what_the_code_says(tmp_path):
         keyboard,
         joint_simulator,
         physics_settings,
+        recorder,
         stewart_forward_kinematics,
         rotary_stewart_forward_kinematics,
     ],

@@ -40,7 +40,7 @@ ROOMS = ('wrist_control', 'launch')
 OPTIONAL = {'rviz2'}
 BUILD = "from setuptools import build_meta as b; b.build_sdist('dist'); b.build_wheel('dist')"
 # What only an extra brings: ROS's lists have no package of it.
-EXTRA = {'mujoco', 'nicegui', 'fastapi', 'starlette', 'uvicorn'}
+EXTRA = {'fastapi', 'mcap', 'mujoco', 'nicegui', 'rosbags', 'starlette', 'uvicorn'}
 # What tools leave in the package's folder.
 MADE = ('__pycache__', '.hypothesis', '.pytest_cache', 'build', 'wrist_control.egg-info')
 WITHOUT_ROS = {name: value for name, value in os.environ.items() if name != 'AMENT_PREFIX_PATH'}

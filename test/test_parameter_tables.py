@@ -10,6 +10,7 @@ from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.keyboard import Keyboard
 from wrist_control.nodes.operator import Operator
 from wrist_control.nodes.physics_simulator import PhysicsSimulator
+from wrist_control.nodes.recorder import Recorder
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.nodes.rotary_stewart_forward_kinematics import (
     RotaryStewartForwardKinematics,
@@ -26,6 +27,7 @@ SECTIONS = {
     'Parameters of the keyboard': (Keyboard,),
     'Parameters of the joint simulator': (JointSimulator,),
     'Parameters of the console': (Console,),
+    'Parameters of the recorder': (Recorder,),
     'Parameters of the physics simulator': (PhysicsSimulator,),
 }
 # Defaults that the tables say in words, or in units that people think in.

@@ -36,8 +36,9 @@ def test_every_executable_of_the_contract_is_installed():
     names = {path.name for path in EXECUTABLES.iterdir()}
     resolvers = {f'{wrist}_resolver' for wrist in WRISTS}
     others = {'operator', 'joint_simulator', 'physics_simulator', 'stewart_forward_kinematics'}
-    others |= {'keyboard'}
+    others |= {'console', 'keyboard'}
     others |= {'rotary_stewart_forward_kinematics'}
+    others |= {'recorder', 'replay', 'report'}
     assert others | resolvers <= names
 
 

@@ -20,9 +20,13 @@ NODES = [
     'operator',
     'physics_simulator',
     'rotary_stewart_forward_kinematics',
+    'recorder',
     'stewart_forward_kinematics',
     'wrist_resolver',
 ]
+
+# Commands that are no nodes: the name, and the module of the package.
+COMMANDS = ['replay', 'report']
 
 # The folders of files that come with the package.
 SHIPPED = ('config', 'foxglove', 'launch', 'rviz', 'urdf')
@@ -41,7 +45,7 @@ def console_scripts():
     """Return one executable per node, and one resolver per wrist; none where there is no ROS."""
     if not os.environ.get('AMENT_PREFIX_PATH'):
         return []
-    names = NODES + [f'{wrist}_resolver' for wrist in wrist_names()]
+    names = NODES + COMMANDS + [f'{wrist}_resolver' for wrist in wrist_names()]
     return [f'{name} = {PACKAGE}_start:{name}' for name in names]
 
 

@@ -7,12 +7,18 @@ signals. This module stands beside the package, for whatever is in it imports al
 
 import os
 import signal
+import sys
 from functools import partial
 from importlib import import_module
 
-NODES = 'wrist_control.nodes'
+PACKAGE = 'wrist_control'
+NODES = f'{PACKAGE}.nodes'
+# What is no node, and ends by itself.
+COMMANDS = ('replay', 'report')
+INTERRUPTED = 130  # the exit code of a command that Ctrl-C ends
+SHOW_CURSOR = b'\x1b[?25h\n'
 # Executables that stand in a room of their own.
-ROOMS = {'console': 'wrist_control.web'}
+ROOMS = {'console': f'{PACKAGE}.web'}
 
 
 def __getattr__(name: str) -> partial[None]:
@@ -23,6 +29,9 @@ def __getattr__(name: str) -> partial[None]:
 
 
 def _start(executable: str) -> None:
+    if executable in COMMANDS:
+        signal.signal(signal.SIGINT, _interrupt)
+        sys.exit(import_module(f'{PACKAGE}.{executable}').main())
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # by nohup
             signal.signal(number, lambda *_: os._exit(0))
@@ -31,3 +40,9 @@ def _start(executable: str) -> None:
         import_module(f'{NODES}.resolver').main(wrist)
     else:
         import_module(f'{ROOMS.get(executable, NODES)}.{executable}').main()
+
+
+def _interrupt(*_: object) -> None:
+    if sys.stdout.isatty():
+        os.write(sys.stdout.fileno(), SHOW_CURSOR)  # which a progress bar has hidden
+    os._exit(INTERRUPTED)

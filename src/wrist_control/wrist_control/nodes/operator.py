@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from geometry_msgs.msg import TwistStamped
@@ -12,6 +13,7 @@ from rclpy.time import Time
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Header
 
+from wrist_control.bags import check_installed
 from wrist_control.errors import InvalidValueError, RefusedError
 from wrist_control.operating.joystick import Joystick, JoystickWithTimeout
 from wrist_control.operating.maneuvers import (
@@ -21,6 +23,7 @@ from wrist_control.operating.maneuvers import (
     make_maneuver,
 )
 from wrist_control.operating.pilot import Pilot
+from wrist_control.operating.recorded import RecordedCommands
 from wrist_control.resolving.latest_message import LatestMessage
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import OK, WARN, Diagnostics
@@ -35,9 +38,11 @@ SPECS = [
     Spec(
         'maneuver',
         'hold',
-        'What to fly; or "constant" for constant_rates, or "joystick" for the topic joy',
-        choices=(*MANEUVERS, 'constant', 'joystick'),
+        'What to fly; or "constant" for constant_rates, "joystick" for the topic joy, or '
+        '"recording" for the commands of a recording',
+        choices=(*MANEUVERS, 'constant', 'joystick', 'recording'),
     ),
+    Spec('recording', '', 'Folder of the maneuver "recording", as the recorder makes it'),
     Spec('speed', BARKER_SPEED, 'Hand rate that a maneuver is flown at', 'rad/s', 1e-6, 100.0),
     Spec(
         'constant_rates',
@@ -87,6 +92,7 @@ class Operator(GuardedNode):
         self._period = 1.0 / self._values['rate']
         self._pilot: Pilot | None = None
         self._joystick: JoystickWithTimeout | None = None
+        self._recorded: RecordedCommands | None = None
         self._times_lost: LatestMessage[float] = LatestMessage()
         self._wrist_is_up = False
         self.watch(self._check, self._values.update)
@@ -99,9 +105,26 @@ class Operator(GuardedNode):
         if maneuver == 'joystick':
             self._joystick = JoystickWithTimeout(self._mapping(), self._values['joy_timeout'])
             self.create_subscription(Joy, 'joy', self._on_joy, NEWEST)
+        elif maneuver == 'recording':
+            self._recorded = self._recorded_commands()
+            self.create_subscription(WristStatus, 'wrist_status', self._on_status, NEWEST)
         elif maneuver != 'constant':
             self._pilot = Pilot(make_maneuver(maneuver, self._values['speed']), self._period)
             self.create_subscription(WristStatus, 'wrist_status', self._on_status, NEWEST)
+
+    def _recorded_commands(self) -> RecordedCommands:
+        check_installed()
+        from wrist_control.bags.commands import Flown
+
+        flown = Flown(Path(self._values['recording'] or "''").expanduser())
+        if flown.cut:
+            self.get_logger().warning(flown.cut)
+        if flown.in_forearm and not self._values['frame_id']:
+            raise InvalidValueError(
+                'frame_id is not given, but the recorded commands are in the axes of the forearm: '
+                "valid is the name of the forearm's frame."
+            )
+        return flown.commands
 
     def _mapping(self) -> Joystick:
         x, y, z = self._values['joy_axes']
@@ -143,16 +166,31 @@ class Operator(GuardedNode):
         if self._values['maneuver'] == 'hold':
             return  # who only holds shall not keep others from leading the hand
         now = self.get_clock().now()
-        self._publish(now, self._rates(convert.seconds_of(now.nanoseconds)))
+        seconds = convert.seconds_of(now.nanoseconds)
+        if self._recorded is None:
+            self._publish(now, self._rates(seconds))
+        else:
+            self._fly(self._recorded, now, seconds)
+
+    def _fly(self, recorded: RecordedCommands, now: Time, seconds: float) -> None:
+        if recorded.began is None and not self._is_heard():
+            self._publish(now, ZERO_RATES)
+            return
+        flying = not recorded.done
+        twist = recorded.twist(seconds)
+        self._publish(now, twist[3:], twist[:3])
+        if flying and recorded.done:
+            self.get_logger().info('The recording is flown.')
 
     def wind_down(self) -> None:
         """Ask for no motion: whoever follows need not wait for a timeout."""
         self._publish(self.get_clock().now(), ZERO_RATES)
 
-    def _publish(self, now: Time, rates: Sequence[float]) -> None:
-        p, q, r = rates
+    def _publish(
+        self, now: Time, rates: Sequence[float], travel: Sequence[float] = ZERO_RATES
+    ) -> None:
         header = Header(stamp=now.to_msg(), frame_id=self._values['frame_id'])
-        twist = convert.twist_message((0.0, 0.0, 0.0, p, q, r))
+        twist = convert.twist_message((*travel, *rates))
         self._publisher.publish(TwistStamped(header=header, twist=twist))
 
     def _rates(self, now: float) -> Sequence[float]:
@@ -180,6 +218,10 @@ class Operator(GuardedNode):
             return WARN, 'The joystick does not count yet: let go of its sticks once.', {}
         if self._joystick is not None:
             return OK, 'Following the joystick.', {}
+        if self._recorded is not None:
+            if self._recorded.began is None:
+                return OK, 'Waiting for somebody to listen to cmd_vel.', {}
+            return OK, f'{"Flown" if self._recorded.done else "Flying"} a recording.', {}
         if self._pilot is None:
             return OK, f'Publishing constant rates {self._values["constant_rates"]}.', {}
         if self._pilot.began is None:

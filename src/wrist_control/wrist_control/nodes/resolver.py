@@ -17,6 +17,7 @@ from std_srvs.srv import SetBool, Trigger
 from wrist_control.errors import RefusedError, WristError
 from wrist_control.nodes.resolver_clock import StepClock
 from wrist_control.nodes.resolver_inputs import Inputs
+from wrist_control.nodes.resolver_journal import Journal
 from wrist_control.nodes.resolver_outputs import Outputs
 from wrist_control.nodes.resolver_settings import (
     check_ceilings,
@@ -33,7 +34,7 @@ from wrist_control.nodes.resolver_settings import (
 from wrist_control.resolving.announcer import Announcer
 from wrist_control.resolving.period import Mode, PeriodResult
 from wrist_control.resolving.report import WristState
-from wrist_control.resolving.supervisor import Supervisor
+from wrist_control.resolving.witness import WitnessedSupervisor
 from wrist_control.ros import convert
 from wrist_control.ros.diagnostics import ERROR, OK, WARN, Diagnostics
 from wrist_control.ros.guarded import GuardedNode
@@ -84,11 +85,13 @@ class Resolver(GuardedNode):
         self._started = dict(self._values)
         check_own(own, self._values)
         wrist = limited(own, self._values)
-        self._supervisor = Supervisor(wrist, settings(wrist, self._values))
+        self._supervisor = WitnessedSupervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
+        self._journal = Journal(self, wrist_name, self._values, self._supervisor)
         self._result = self._supervisor.tick(
             stamp_time=0.0, receipt_time=0.0, withheld='Starting: no step was made yet.'
         )
+        self._supervisor.turn_over()
         self._announcer = Announcer()
         self._broken = False
         self.watch(self._check, self._apply)
@@ -152,16 +155,19 @@ class Resolver(GuardedNode):
 
     def _step(self, stamp: int) -> None:
         try:
-            self._result = self._announced(
-                self._supervisor.tick(
-                    stamp_time=convert.seconds_of(stamp),
-                    receipt_time=self._step_clock.receipt_time(),
-                    withheld=self._inputs.withheld(),
-                    pause=self._step_clock.pause,
-                )
+            now, pause = self._step_clock.receipt_time(), self._step_clock.pause
+            withheld, time_stamp = self._inputs.withheld(), Time(nanoseconds=stamp).to_msg()
+            result = self._supervisor.tick(
+                stamp_time=convert.seconds_of(stamp),
+                receipt_time=now,
+                withheld=withheld,
+                pause=pause,
             )
-            self._outputs.publish(self._result, Time(nanoseconds=stamp).to_msg())
+            self._result = self._announced(result)
+            self._outputs.publish(self._result, time_stamp)
+            self._journal.publish(time_stamp, now, withheld, pause)
         except Exception as error:
+            self._supervisor.turn_over()  # untold: this step cannot be made again
             if self._broken:  # the ramp cannot be computed either: a zero without one
                 self._outputs.zero()
                 self._supervisor.give_up(str(error))
@@ -198,6 +204,7 @@ class Resolver(GuardedNode):
         self._values.update(completed({**self._values, **changed}))
         self._supervisor.wrist = limited(self._supervisor.wrist, self._values)
         self._supervisor.settings = settings(self._supervisor.wrist, self._values)
+        self._journal.note_parameters()
 
     def _health(self) -> tuple[bytes, str, dict[str, str]]:
         result: PeriodResult = self._result

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from wrist_control.errors import InvalidValueError, RefusedError
 from wrist_control.resolving.joint_order import in_joint_order
@@ -21,6 +22,22 @@ SAG = {'revolute': 0.02, 'prismatic': 0.001}
 EDGE_SAG = 0.01
 # No joint is further than this, rad or m: a thousand turns and more.
 FURTHEST = 1e4
+
+
+class Remembered(NamedTuple):
+    """What there is to know of joint states that follow their commands.
+
+    Attributes:
+        positions: The newest, rad or m; empty before the first.
+        first: Those that they rest at since.
+        messages: How many there were since then.
+        receipt: When the newest came, s.
+    """
+
+    positions: tuple[float, ...]
+    first: tuple[float, ...]
+    messages: int
+    receipt: float
 
 
 class Feedback:
@@ -67,6 +84,21 @@ class Feedback:
         self._count_at_rest += 1
         self.positions, self._receipt = heard, receipt_time
         return heard
+
+    @property
+    def remembered(self) -> Remembered:
+        """What was heard so far."""
+        return Remembered(self.positions or (), self._first, self._count_at_rest, self._receipt)
+
+    def recall(self, remembered: Remembered) -> None:
+        """Go on from what was heard elsewhere."""
+        positions, self._first, self._count_at_rest, self._receipt = remembered
+        self.positions = positions or None
+
+    @property
+    def lagging(self) -> bool:
+        """True while a joint is further behind than it may be."""
+        return self._behind_since is not None
 
     @property
     def resting(self) -> bool:

@@ -13,12 +13,16 @@ class LatestMessage(Generic[Message]):
     Two processes that are woken by the same tick of a simulated clock race each other. With this
     rule a message counts from the first step after its stamp, whoever is faster; and a sender
     whose clock is ahead is one message late, never unheard.
+
+    Attributes:
+        counting: The one that counts; None when there is none.
+        waiting: The one that is held back; None when there is none.
     """
 
     def __init__(self) -> None:
         """Start with no message."""
-        self._counting: Message | None = None
-        self._waiting: Message | None = None
+        self.counting: Message | None = None
+        self.waiting: Message | None = None
         self._stamp: float | None = None
 
     def put(self, stamp: float | None, message: Message) -> None:
@@ -28,9 +32,9 @@ class LatestMessage(Generic[Message]):
             stamp: s, None when it has none and so counts at once.
             message: The message.
         """
-        if self._waiting is not None:
-            self._counting = self._waiting
-        self._stamp, self._waiting = stamp, message
+        if self.waiting is not None:
+            self.counting = self.waiting
+        self._stamp, self.waiting = stamp, message
 
     def at(self, stamp_time: float) -> Message | None:
         """Return the latest message that counts now, None when there is none yet.
@@ -38,10 +42,10 @@ class LatestMessage(Generic[Message]):
         Args:
             stamp_time: Now, s, on the clock of the stamps.
         """
-        if self._waiting is not None and (self._stamp is None or self._stamp < stamp_time):
-            self._counting, self._waiting = self._waiting, None
-        return self._counting
+        if self.waiting is not None and (self._stamp is None or self._stamp < stamp_time):
+            self.counting, self.waiting = self.waiting, None
+        return self.counting
 
     def clear(self) -> None:
         """Drop every message."""
-        self._counting = self._waiting = None
+        self.counting = self.waiting = None

@@ -50,11 +50,15 @@ class Deadman:
 
 
 class Permission:
-    """How much of a motion is allowed: all of it, or a ramp to a stop since it was withheld."""
+    """How much of a motion is allowed: all of it, or a ramp to a stop since it was withheld.
+
+    Attributes:
+        since: When it was withheld, s of receipt time; None while it is allowed.
+    """
 
     def __init__(self) -> None:
         """Begin without: what was never allowed needs no ramp."""
-        self._since: float | None = -math.inf
+        self.since: float | None = -math.inf
 
     def share(self, withheld: bool, receipt_time: float, stop_time: float) -> float:
         """Return the share of the motion that is allowed now: 1, then a ramp down to 0.
@@ -65,8 +69,8 @@ class Permission:
             stop_time: How long the ramp takes, s.
         """
         if not withheld:
-            self._since = None
+            self.since = None
             return 1.0
-        if self._since is None:
-            self._since = receipt_time
-        return freshness(receipt_time - self._since, 0.0, stop_time)
+        if self.since is None:
+            self.since = receipt_time
+        return freshness(receipt_time - self.since, 0.0, stop_time)

@@ -83,7 +83,7 @@ class GuardedNode(ParameterNode):
         """Make a timer whose callback is guarded."""
         where = getattr(callback, '__qualname__', 'a timer')
         options.setdefault('clock', self.get_clock() if self.simulated else self.steady)
-        return super().create_timer(timer_period_sec, self._guard(callback, where), **options)
+        return super().create_timer(timer_period_sec, self.guarded(callback, where), **options)
 
     def create_subscription(
         self, msg_type: Any, topic: str, callback: Any, qos_profile: Any, **options: Any
@@ -110,7 +110,7 @@ class GuardedNode(ParameterNode):
             else:
                 callback(message, *more)
 
-        return self._guard(unpack, f'topic {topic}')
+        return self.guarded(unpack, f'topic {topic}')
 
     def create_service(self, srv_type: Any, srv_name: str, callback: Any, **options: Any) -> Any:
         """Offer a service whose callback is guarded: it answers why it could not do it."""
@@ -120,23 +120,23 @@ class GuardedNode(ParameterNode):
                 response.success, response.message = False, sentence
             return response
 
-        guarded = self._guard(callback, f'service {srv_name}', answer)
+        guarded = self.guarded(callback, f'service {srv_name}', answer)
         return super().create_service(srv_type, srv_name, guarded, **options)
 
     def add_on_set_parameters_callback(self, callback: Any) -> None:
         """Have a callback look at new parameters, guarded: what it cannot judge is refused."""
-        guarded = self._guard(callback, 'a change of parameters', _refuse_parameters)
+        guarded = self.guarded(callback, 'a change of parameters', _refuse_parameters)
         super().add_on_set_parameters_callback(guarded)
 
     def add_post_set_parameters_callback(self, callback: Any) -> None:
         """Have a guarded callback follow new parameters."""
-        super().add_post_set_parameters_callback(self._guard(callback, 'a change of parameters'))
+        super().add_post_set_parameters_callback(self.guarded(callback, 'a change of parameters'))
 
     def _keep_clock(self, parameters: list[Parameter]) -> SetParametersResult:
         changed = any(p.name == 'use_sim_time' and p.value != self.simulated for p in parameters)
         return SetParametersResult(successful=not changed, reason=KEPT if changed else '')
 
-    def _guard(
+    def guarded(
         self, callback: Any, where: str, answer: Callable[..., Any] = lambda *_: None
     ) -> Any:
         """Return a callback that never raises.

@@ -26,7 +26,13 @@ class Informed(Waitable):
     """
 
     def __init__(
-        self, node: GuardedNode, kind: Any, topic: str, heard: Heard, qos: QoSProfile
+        self,
+        node: GuardedNode,
+        kind: Any,
+        topic: str,
+        heard: Heard,
+        qos: QoSProfile,
+        raw: bool = False,
     ) -> None:
         """Start listening.
 
@@ -37,10 +43,13 @@ class Informed(Waitable):
             heard: Called with each message, what the middleware knows of it, and how many
                 publishers are alive on the topic.
             qos: Quality of service.
+            raw: Whether messages are handed on as bytes, of whatever size.
         """
         super().__init__(node.default_callback_group)
         self.subscription: Subscription = node.create_subscription(kind, topic, _never, qos)
-        self._heard = node.unpacking(kind, topic, heard)
+        self._heard = (
+            node.guarded(heard, f'topic {topic}') if raw else node.unpacking(kind, topic, heard)
+        )
         self._index = 0
         node.add_waitable(self)
 

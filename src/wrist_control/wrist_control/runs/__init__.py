@@ -1,0 +1,1 @@
+"""What a recording of one wrist tells: its commands again, and a report."""
