@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from chosen_of_motion import MOTION
+
 
 class Chosen(NamedTuple):
     """One fault.
@@ -24,29 +26,30 @@ class Chosen(NamedTuple):
     why: str
 
 
-NODE, SETTINGS = 'nodes/resolver.py', 'nodes/resolver_settings.py'
-OUTPUTS, OPERATOR = 'nodes/resolver_outputs.py', 'nodes/operator.py'
-SUPERVISOR, STEP = 'resolving/supervisor.py', 'resolving/step.py'
-SEARCH, FEEDBACK = 'resolving/search.py', 'resolving/feedback.py'
-WINDOWS, FEASIBLE = 'resolving/rate_windows.py', 'resolving/feasible.py'
-INPUTS, EASING = 'nodes/resolver_inputs.py', 'resolving/easing.py'
-JOYSTICK, KEYS = 'operating/joystick.py', 'operating/keys.py'
-PLATFORM, STEWART = 'wrists/platform.py', 'wrists/stewart.py'
-FOUR, THREE = 'wrists/four_gimbal.py', 'wrists/three_gimbal.py'
-SPARE, AXES, URDF = 'wrists/spare_joint.py', 'wrists/three_axes.py', 'wrists/urdf.py'
-CLOCK, GUARDED = 'nodes/resolver_clock.py', 'ros/guarded.py'
+NODE = 'nodes/resolver.py'
+SETTINGS = 'nodes/resolver_settings.py'
+OUTPUTS = 'nodes/resolver_outputs.py'
+OPERATOR = 'nodes/operator.py'
+SUPERVISOR = 'resolving/supervisor.py'
+FEEDBACK = 'resolving/feedback.py'
+INPUTS = 'nodes/resolver_inputs.py'
+JOYSTICK = 'operating/joystick.py'
+KEYS = 'operating/keys.py'
+CLOCK = 'nodes/resolver_clock.py'
+GUARDED = 'ros/guarded.py'
 STEADY = 'return convert.seconds_of(self._node.steady.now().nanoseconds)'
 CAUGHT = '            except Exception as error:\n                return'
 MISSED = CAUGHT.replace('Exception', 'KeyError')
 FIRST = "self.__dict__.setdefault('_first', self._values['command_timeout'])"
-FOLLOWED = 'scaled(result.step.scale_factor, result.commanded)'
 LOOK = 'if publisher.topic_type != kind:'
-QOS, RECORDING = 'ros/qos.py', 'graph/recording.py'
+QOS = 'ros/qos.py'
+RECORDING = 'graph/recording.py'
 UNSURE = 'OUTPUT = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)'
 
 CHOSEN = tuple(
     Chosen(*facts)
     for facts in (
+        *MOTION,
         # A change of a live parameter that is accepted and then not followed.
         (NODE, 'self._supervisor.settings = settings(', 'settings(', 'live timeouts are dead'),
         (SETTINGS, "values['command_timeout']", '0.25', 'the hand runs on for another time'),
@@ -204,58 +207,6 @@ CHOSEN = tuple(
             'self._heard = receipt_time',
             'a stick that talks nonsense drives on',
         ),
-        # Edges and locks.
-        ('wrists/wrist.py', 'stop: float = 0.02', 'stop: float = 0.2', 'workspace is lost'),
-        ('wrists/wrist.py', 'stop: float = 0.02', 'stop: float = 0.002', 'too near to the edge'),
-        ('wrists/wrist.py', 'horizon: float = 0.1', 'horizon: float = 1.0', 'the edge is glue'),
-        ('wrists/wrist.py', 'horizon: float = 0.1', 'horizon: float = 0.01', 'the edge is a wall'),
-        (PLATFORM, 'EDGE = 0.01', 'EDGE = 0.1', 'workspace is lost'),
-        (PLATFORM, 'EDGE = 0.01', 'EDGE = 0.001', 'too near to lock'),
-        (PLATFORM, 'HORIZON = 0.5', 'HORIZON = 5.0', 'lock is glue'),
-        (PLATFORM, 'HORIZON = 0.5', 'HORIZON = 0.05', 'lock is a wall'),
-        (STEWART, '[float] = 0.02', '[float] = 0.2', 'the platform is taken for another assembly'),
-        ('stewart/measurement.py', 'SLACK = 1e-9', 'SLACK = 1e-3', 'impossible lengths pass'),
-        (
-            'stewart/forward_kinematics.py',
-            'POSE_ERROR = 3.0',
-            'POSE_ERROR = 1.0',
-            'a proof that proves too much',
-        ),
-        (SPARE, 'CUSHION = 0.25', 'CUSHION = 2.5', 'the fourth gimbal gives up too soon'),
-        (SPARE, 'CUSHION = 0.25', 'CUSHION = 0.025', 'the fourth gimbal runs into its limit'),
-        (URDF, 'law = self.gain *', 'law = -self.gain *', 'the spare joint drives into lock'),
-        (AXES, 'SEAM = 2e-3', 'SEAM = 0.2', 'the hand is not where it is said to be'),
-        (FOUR, 'law = -self.gain', 'law = self.gain', 'the fourth gimbal drives into lock'),
-        (THREE, 'LOCK = 1e-9', 'LOCK = 1e-3', 'the joints are not those of the pose'),
-        (THREE, 'TIE = 1e-6', 'TIE = 0.1', 'the branch that is further away is taken'),
-        ('wrists/double_hooke.py', 'LOCK = 1e-9', 'LOCK = 1e-3', 'joints not those of the pose'),
-        (STEP, 'SINGULAR_MARGIN = 0.001', 'SINGULAR_MARGIN = 0.01', 'strays further than Barker'),
-        (STEP, 'SINGULAR_MARGIN = 0.001', 'SINGULAR_MARGIN = 0.0001', 'rates without bounds'),
-        (SEARCH, 'LEAP = 0.1', 'LEAP = 1e-9', 'held at a limit for good'),
-        (SEARCH, 'GUESSES = 6', 'GUESSES = 60', 'stops where half of the command can be made'),
-        (SEARCH, 'SMALLEST_FACTOR = 1e-6', 'SMALLEST_FACTOR = 1e-2', 'stops before the limit'),
-        (SEARCH, 'RESOLUTION = 0.01', 'RESOLUTION = 1.0', 'creeps where it could go'),
-        (
-            STEP,
-            'if len(wrist.followed_axes) == 3:',
-            'if True:',
-            'a pointer in lock spins the hand',
-        ),
-        (FOUR, 'math.copysign(1.0, cosine) * s < SIDE', 's < SIDE', 'beyond lock it chatters'),
-        # How quickly a joint may change its rate.
-        (WINDOWS, 'joint.deceleration_limit * dt', 'joint.acceleration_limit * dt', 'a late stop'),
-        (WINDOWS, ' * (1.0 - rate / slowing_down)', '', 'a turn back with a jerk'),
-        (FEASIBLE, 'half = 0.5 * time', 'half = 0.25 * time', 'a limit is met at speed'),
-        (FEASIBLE, 'if time <= dt:', 'if time <= 9.0 * dt:', 'a limit is met at speed'),
-        (EASING, 'if not any(way):', 'if True:', 'a stop without a ramp'),
-        (EASING, '    if not held:', '    if True:', 'any rate at once'),
-        (EASING, 'if along:', 'if False:', 'the hand leaves its direction without need'),
-        ('resolving/ramp.py', 'PAUSE = 0.1', 'PAUSE = 9.0', 'a jerk after a freeze'),
-        (SUPERVISOR, FOLLOWED, 'result.commanded', 'a stop speeds the hand up first'),
-        (SUPERVISOR, ' and not any(result.step.joint_rates)', '', 'let go while it moves'),
-        ('resolving/homing.py', 'part = min(reach, ', 'part = max(0.0, reach, ', 'home too fast'),
-        (CLOCK, 'self.pause = convert', 'self.pause = 0.0 * convert', 'a jerk after a freeze'),
-        (SETTINGS, '= 0.25, 0.1', '= 0.025, 0.01', 'ten times as quick as careful'),
         # What people and other nodes are told.
         ('resolving/report.py', 'NOTICEABLE = 1e-3', 'NOTICEABLE = 1e-2', 'a lost part is hidden'),
         ('ros/diagnostics.py', "'state', level", "'state', OK", 'a fault is shown green'),

@@ -10,7 +10,7 @@ from sensor_msgs.msg import JointState
 from wrist_control import WristError, make_wrist
 from wrist_control.nodes.resolver import Resolver
 from wrist_control.rotations import IDENTITY, Pose, turned
-from wrist_control.wrists.stewart import EDGE
+from wrist_control.wrists.platform import EDGE
 from wrist_interfaces.msg import LimitAtWork, WristStatus
 
 from .stewart_flown import HOME, RATE, WRIST, Flown, pose_of, values

@@ -39,6 +39,14 @@ def test_what_is_asked_for_lasts_exactly_as_long_as_it_may():
     assert taken().held(NOW + LASTS + JUST) is None
 
 
+def test_a_silent_page_drives_for_a_quarter_of_a_second_and_what_is_older_than_a_third_is_late():
+    """In plain numbers: they are what the documents promise."""
+    assert taken().held(NOW + 0.24) is not None
+    assert taken().held(NOW + 0.26) is None
+    assert Lease().renew(renewal(beat=NOW - 0.34), NOW) == ''
+    assert 'too late' in Lease().renew(renewal(beat=NOW - 0.36), NOW)
+
+
 def test_a_renewal_asks_for_something_else():
     lease = taken()
     assert lease.renew(renewal(beat=NOW + 0.2, asked='down'), NOW + 0.2) == ''

@@ -250,7 +250,7 @@ def _descriptor(spec: Spec) -> ParameterDescriptor:
     )
     if isinstance(spec.default, float):
         descriptor.floating_point_range = [
-            FloatingPointRange(from_value=spec.minimum, to_value=spec.maximum)
+            FloatingPointRange(from_value=float(spec.minimum), to_value=float(spec.maximum))
         ]
     elif spec.type == Parameter.Type.INTEGER:
         descriptor.integer_range = [
