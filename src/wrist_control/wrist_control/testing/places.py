@@ -41,7 +41,7 @@ def regular_places(wrist: Wrist, random: Random, count: int) -> Iterator[Positio
         try:
             # Half of them near home: some mechanisms can be assembled there only.
             share = random.choice([0.2, 1.0])
-            positions = wrist.resolve_assembly(random_positions(wrist, random, share), near)
+            positions = _assembled(wrist, random_positions(wrist, random, share), near)
             wrist.forward(positions)
             if conditioning(positions) < REGULAR:
                 continue
@@ -52,6 +52,25 @@ def regular_places(wrist: Wrist, random: Random, count: int) -> Iterator[Positio
         if not count:
             return
     require(False, 'too few places around home can be assembled away from lock')
+
+
+def _assembled(wrist: Wrist, positions: tuple[float, ...], home: Pose) -> Positions:
+    """Return joint positions that say which pose they hold, these or, roughly, so far from home.
+
+    Where joint positions alone fit several poses, most that are picked at random fit none, and it
+    takes long to be sure of that: the hand is sent where the joints would take it at home.
+
+    Raises:
+        UnreachableError: The mechanism cannot be assembled there, or not within its limits.
+    """
+    if type(wrist).resolve_assembly is Wrist.resolve_assembly:
+        return positions
+    way = wrist.jacobian(wrist.home) @ np.subtract(positions, wrist.home)
+    found = wrist.inverse(wrist.target_pose(home, way.tolist(), 1.0), wrist.home)
+    for joint, position in zip(wrist.joints, found, strict=True):
+        if not joint.lower <= position <= joint.upper:
+            raise UnreachableError('outside the limits')
+    return found
 
 
 def rate_map(wrist: Wrist, positions: Sequence[float]) -> np.ndarray:
