@@ -183,3 +183,21 @@ def test_a_wrist_that_cannot_be_made_does_not_start(python):
     done = resolver(python, '--ros-args', '-p', 'wrist:=nowhere')
     assert done.returncode == 2
     assert "Cannot start: wrist is 'nowhere'; valid is one of three_gimbal, " in done.stderr
+
+
+@pytest.mark.timeout(120)
+def test_the_physics_of_the_example_is_that_of_its_kinematics(python):
+    code = (
+        'from wrist_control import make_wrist\n'
+        'from wrist_control.studies.judgement import judge\n'
+        'print(judge(make_wrist("pan_tilt"), 5).worst)\n'
+    )
+    assert float(python('-c', code)) < 1e-6
+
+
+@pytest.mark.timeout(120)
+def test_the_simulator_of_the_physics_takes_it(python):
+    code = 'from wrist_control.nodes.physics_settings import WRIST; print(WRIST.choices)'
+    choices = python('-c', code)
+    assert "'pan_tilt'" in choices
+    assert "'broken'" not in choices

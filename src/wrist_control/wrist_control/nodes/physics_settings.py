@@ -11,6 +11,7 @@ from wrist_control.errors import InvalidValueError
 from wrist_control.ros.parameters import FRAME, Spec
 from wrist_control.wrists import WRISTS, Wrist
 from wrist_control.wrists.joint import broadcast_to_joints
+from wrist_control.wrists.plugins import plugged_in_mechanisms
 
 if TYPE_CHECKING:
     from wrist_control.physics.driven import DrivenMechanism
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 GRAVITY = 9.80665
 POSITIONS, RATES = 'joint_command', 'joint_velocity_command'
 EACH = 'one for each joint, or one for all'
-WRIST = Spec('wrist', 'three_gimbal', 'Which wrist is simulated', choices=tuple(WRISTS))
+MODELLED = (*WRISTS, *plugged_in_mechanisms())
+WRIST = Spec('wrist', 'three_gimbal', 'Which wrist is simulated', choices=MODELLED)
 SPECS = [
     WRIST,
     Spec('rate', 100.0, 'Joint states per second, from the node clock', 'Hz', 1.0, 2000.0),

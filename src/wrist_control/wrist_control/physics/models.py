@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib import metadata
 from typing import Any
 
 from wrist_control.errors import InvalidValueError
 from wrist_control.physics import carpal, five_bar, gimbals, hooke, rotary_stewart, stewart
 from wrist_control.physics.mechanism import Mechanism, Settings
-from wrist_control.wrists.wrist import Wrist
+from wrist_control.wrists import Wrist, wrist_class
+from wrist_control.wrists.plugins import plugged_in_mechanisms
 
+Model = Callable[[Any, Settings], Mechanism]
 # By the names of the registry of wrists, which are those of the modules that they are in.
-MODELS: dict[str, Callable[[Any, Settings], Mechanism]] = {
+MODELS: dict[str, Model] = {
     'three_gimbal': gimbals.three_gimbal,
     'four_gimbal': gimbals.four_gimbal,
     'roll_pitch_roll': gimbals.roll_pitch_roll,
@@ -31,12 +34,28 @@ def build(wrist: Wrist, settings: Settings = DEFAULTS) -> Mechanism:
     """Return the mechanism of a wrist at its joints' zero, or where its loops are drawn.
 
     Raises:
-        InvalidValueError: There is no mechanism for such a wrist.
+        InvalidValueError: There is no mechanism for such a wrist, or that of another package
+            cannot be imported.
     """
     name = type(wrist).__module__.rpartition('.')[2]
-    if name not in MODELS:
+    if name in MODELS:
+        return MODELS[name](wrist, settings)
+    others = plugged_in_mechanisms()
+    for other, point in others.items():
+        if isinstance(wrist, wrist_class(other)):
+            return _loaded(point)(wrist, settings)
+    raise InvalidValueError(
+        f'There is no mechanism for {type(wrist).__name__}; there is one for each of '
+        f'{", ".join([*MODELS, *others])}.'
+    )
+
+
+def _loaded(point: metadata.EntryPoint) -> Model:
+    try:
+        model: Model = point.load()
+    except Exception as error:  # whatever a stranger's module does
         raise InvalidValueError(
-            f'There is no mechanism for {type(wrist).__name__}; there is one for each of '
-            f'{", ".join(MODELS)}.'
-        )
-    return MODELS[name](wrist, settings)
+            f'The mechanism {point.value} of the wrist {point.name!r} cannot be imported '
+            f'({type(error).__name__}: {error}); mend that package, or remove it.'
+        ) from error
+    return model

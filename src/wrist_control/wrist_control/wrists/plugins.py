@@ -10,6 +10,8 @@ from wrist_control.wrists.registry import DESCRIBED, WRISTS
 from wrist_control.wrists.wrist import Wrist
 
 GROUP = 'wrist_control.wrists'
+# By these another package names the mechanisms, of MuJoCo's, of its wrists.
+MECHANISMS = 'wrist_control.physics'
 
 
 def plugged_in() -> dict[str, metadata.EntryPoint]:
@@ -19,6 +21,12 @@ def plugged_in() -> dict[str, metadata.EntryPoint]:
     """
     found = metadata.entry_points(group=GROUP)
     return {point.name: point for point in found if point.name not in {**WRISTS, **DESCRIBED}}
+
+
+def plugged_in_mechanisms() -> dict[str, metadata.EntryPoint]:
+    """Return the entry points of the mechanisms of other packages, by their wrists' names."""
+    found, wrists = metadata.entry_points(group=MECHANISMS), plugged_in()
+    return {point.name: point for point in found if point.name in wrists}
 
 
 def plugged_in_class(point: metadata.EntryPoint) -> type[Wrist]:
