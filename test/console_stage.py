@@ -7,6 +7,7 @@ import socket
 import subprocess
 import threading
 import time
+import uuid
 from pathlib import Path
 
 import pytest
@@ -104,14 +105,18 @@ class Browser:
         problems: What its pages have complained of.
     """
 
-    def __init__(self, playwright, environment, mark):
-        self._mark = f'{mark}={environment[mark]}-browser'.encode()
+    def __init__(self, playwright, mark):
+        own = uuid.uuid4().hex
+        self._mark = f'{mark}={own}'.encode()
         self._browser = playwright.chromium.launch(
-            executable_path=BROWSER,
-            args=FLAGS,
-            env={**environment, mark: f'{environment[mark]}-browser'},
+            executable_path=BROWSER, args=FLAGS, env={**os.environ, mark: own}
         )
         self.problems = []
+
+    def leave(self):
+        """Close every page, for the next test."""
+        for context in self._browser.contexts:
+            context.close()
 
     def open(self, address, **options):
         """Return a page that shows an address, ready to be used.

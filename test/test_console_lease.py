@@ -26,12 +26,19 @@ def console(graph, process_environment):
     made.end()
 
 
-@pytest.fixture
-def browser(process_environment):
+@pytest.fixture(scope='module')
+def chromium():
     with playwright_api.sync_playwright() as playwright:
-        made = Browser(playwright, process_environment, MARK)
+        made = Browser(playwright, MARK)
         yield made
         made.close()
+
+
+@pytest.fixture
+def browser(chromium):
+    chromium.problems.clear()
+    yield chromium
+    chromium.leave()
 
 
 @pytest.fixture

@@ -209,7 +209,7 @@ def test_the_picture_says_what_its_marks_are_and_who_left_the_path(picture):
 @pytest.mark.parametrize(
     ('panel', 'written'),
     [
-        (0, ['0.00', '1.24', 'cone\nat 1.4 s']),
+        (0, ['0.00', '1.24', 'cone at 1.4 s']),
         (1, ['1.0', '7.0', '200.0 †']),
         (2, ['1.00', '0.30', '0.00 †']),
     ],

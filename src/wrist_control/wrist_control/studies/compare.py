@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+import textwrap
 from collections.abc import Callable, Sequence
 from itertools import groupby
 from operator import itemgetter
@@ -123,6 +124,8 @@ class Panel(NamedTuple):
 
 
 # A shade from which white can be read better than black.
+# Letters that fit into a cell.
+WIDE_CELL = 17
 DARK = 0.75
 PANELS = (
     Panel('time lost (s), or what stopped the hand', lambda o: o.time_lost, '{:.2f}', 0.01, 10.0),
@@ -190,10 +193,11 @@ def _draw_panel(axes: Axes, performances: Sequence[Performance], panel: Panel) -
         axes.text(
             column,
             row,
-            f'{o.stopped_by}\nat {o.stopped_at:.1f} s' if stopped else _label(o, panel),
+            _why_stopped(o) if stopped else _label(o, panel),
             ha='center',
             va='center',
-            fontsize=7.5 if stopped else 9.5,
+            fontsize=6.5 if stopped else 9.5,
+            linespacing=0.95,
             color='white' if shades[row, column] > DARK else 'black',
         )
     axes.imshow(shades, cmap='OrRd', vmin=0.0, vmax=1.15, aspect='auto')
@@ -209,6 +213,11 @@ def _draw_panel(axes: Axes, performances: Sequence[Performance], panel: Panel) -
 
 def _marked(o: Performance) -> str:
     return o.wrist if o.follows_roll else f'{o.wrist} *'
+
+
+def _why_stopped(o: Performance) -> str:
+    """Return what stopped the hand and when, in lines that fit into a cell."""
+    return textwrap.fill(f'{o.stopped_by} at {o.stopped_at:.1f} s', WIDE_CELL)
 
 
 def _label(o: Performance, panel: Panel) -> str:

@@ -24,8 +24,9 @@ from wrist_control.wrists import Wrist
 if TYPE_CHECKING:
     from wrist_control.web.console import Console
 
-# Updates of a page a second, and what its strips show, s.
-UPDATES, SHOWN = 30.0, 10.0
+# Updates of a page a second, a few more than are promised, for a timer is late; what its strips
+# show, s.
+UPDATES, SHOWN = 36.0, 10.0
 # How long a page says why it does not drive, s.
 TOLD = 3.0
 FLOWN = [name for name in MANEUVERS if name != 'hold']
