@@ -73,8 +73,8 @@ MOTION = (
     (CLOCK, 'self.pause = convert', 'self.pause = 0.0 * convert', 'a jerk after a freeze'),
     (SETTINGS, '= 0.25, 0.1', '= 0.025, 0.01', 'ten times as quick as careful'),
     # Who holds the stick, and for how long.
-    (LEASE, 'LASTS, OLDEST = 0.25, 0.35', 'LASTS, OLDEST = 2.5, 0.35', 'a frozen page drives on'),
-    (LEASE, 'LASTS, OLDEST = 0.25, 0.35', 'LASTS, OLDEST = 0.25, 3.5', 'what comes late counts'),
+    (LEASE, 'LASTS, OLDEST = 0.25, 0.45', 'LASTS, OLDEST = 2.5, 4.5', 'a frozen page drives on'),
+    (LEASE, 'LASTS, OLDEST = 0.25, 0.45', 'LASTS, OLDEST = 0.25, 4.5', 'what comes late counts'),
     (LEASE, 'renewal.holder != held.holder', 'False', 'two pages drive at once'),
     (LEASE, '        self._ended[held.holder] = held.grip\n', '', 'a grip that has ended goes on'),
 )

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from typing import Generic, NamedTuple, TypeVar
 
-# s after the last renewal until whoever held the stick has let it go, and how old its beat may be.
-LASTS, OLDEST = 0.25, 0.35
+# s until whoever held the stick has let it go: after its last renewal came, and after its beat.
+# The first is for a page that falls silent, the second for one that is heard late.
+LASTS, OLDEST = 0.25, 0.45
 
 Asked = TypeVar('Asked')
 
@@ -47,7 +48,7 @@ class Lease(Generic[Asked]):
         """
         self._lasts = lasts
         self._held: Renewal[Asked] | None = None
-        self._renewed = 0.0
+        self._until = 0.0
         self._ended: dict[str, int] = {}
 
     def renew(self, renewal: Renewal[Asked], now: float) -> str:
@@ -67,7 +68,7 @@ class Lease(Generic[Asked]):
             self.release(renewal.holder)
             self._ended[renewal.holder] = renewal.grip
             return 'That came too late to count: let go, and take the stick anew.'
-        self._held, self._renewed = renewal, now
+        self._held, self._until = renewal, min(now + self._lasts, renewal.beat + OLDEST)
         self._ended[renewal.holder] = renewal.grip - 1  # whatever came before it
         return ''
 
@@ -88,7 +89,7 @@ class Lease(Generic[Asked]):
 
     def held(self, now: float) -> Renewal[Asked] | None:
         """Return what is asked for now, and by whom; None while nobody holds the stick."""
-        if self._held is not None and now - self._renewed > self._lasts:
+        if self._held is not None and now > self._until:
             self._end(self._held)
         return self._held
 
