@@ -75,6 +75,8 @@ setup(
         # ROS 2 Jazzy from its wheels; wrist_interfaces and tf2_msgs are built beside it.
         'ros': ['ros-jazzy-common-interfaces==5.3.6', 'ros-jazzy-rclpy[fastrtps]==7.1.6'],
         # By this name `colcon test` knows which tool runs the tests.
+        # Reading a robot's description needs nothing else; whoever asks for it gets just that.
+        'urdf': [],
         'test': ['hypothesis', 'pytest', 'pytest-timeout', 'scipy'],
     },
     zip_safe=False,

@@ -51,7 +51,8 @@ def _lines(node: ParameterNode) -> Iterator[str]:
         f'usage: {program} [--ros-args [-p <parameter>:=<value>] [--params-file <file>] '
         '[-r <name>:=<another>] [-r __ns:=/<namespace>]]'
     )
-    yield f'\n{inspect.getdoc(type(node))}'
+    about, _, _ = (inspect.getdoc(type(node)) or '').partition('\n\nAttributes:')
+    yield f'\n{about}'
     yield '\nHears:'
     yield from _topics(node.get_subscriber_names_and_types_by_node(name, space))
     yield '\nSays:'
