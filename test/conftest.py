@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import subprocess
 import time
 import uuid
 from collections.abc import Callable, Iterator
@@ -30,6 +31,7 @@ class Graph:
 
     Attributes:
         domain: Its ROS domain.
+        processes: Those of the test: none outlives it, to be heard by the next in this domain.
         outside: A node that stands for everybody else: publishes and listens by topic only.
     """
 
@@ -40,6 +42,7 @@ class Graph:
         rclpy.init(context=self.context, domain_id=self.domain)
         self.executor = SingleThreadedExecutor(context=self.context)
         self._nodes: list[Node] = []
+        self.processes: list[subprocess.Popen] = []
         self.outside = self.add(rclpy.create_node('outside', context=self.context))
 
     def add(self, node: Node) -> Node:
@@ -126,6 +129,9 @@ class Graph:
         return Lockstep(self.outside, period, executor=self.executor)
 
     def close(self) -> None:
+        for process in self.processes:
+            process.kill()
+            process.wait()
         for node in self._nodes:
             self.executor.remove_node(node)
             node.destroy_node()

@@ -37,6 +37,7 @@ class Recorded:
             text=True,
             **options,
         )
+        graph.processes.append(self.process)
 
     def end(self, number=signal.SIGINT):
         """End it; return its exit code and what it said."""

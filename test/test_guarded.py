@@ -143,8 +143,8 @@ def test_an_error_in_any_callback_ramps_the_hand_into_a_fault_that_enable_clears
     assert down[-1] == 0.0
     graph.until(lambda: len(turning.errors()) == 2)
     assert all('of all things' in error.message for error in turning.errors())
-    # A machine that does not let it run for 0.2 s lets the ramp of 0.1 s pass meanwhile.
-    assert ramped or turning.missed_steps() > 20
+    # A machine that does not let it run lets a part of the ramp of 0.1 s pass meanwhile.
+    assert ramped or turning.missed_steps() > 3
     assert turning.enable().success
     turning.until_state(WristStatus.TRACKING)
     graph.until(lambda: not turning.errors())
