@@ -185,3 +185,24 @@ def own_processes(process_environment: dict[str, str]) -> Callable[[], list[str]
         return found
 
     return listed
+
+
+@pytest.fixture(scope='module')
+def chromium() -> Iterator[Any]:
+    """A browser for all tests of a module; without one they are skipped."""
+    reason = 'the page is not tried: playwright is not installed'
+    playwright = pytest.importorskip('playwright.sync_api', reason=reason)
+    from .console_stage import Browser
+
+    with playwright.sync_playwright() as api:
+        made = Browser(api, MARK)
+        yield made
+        made.close()
+
+
+@pytest.fixture
+def browser(chromium: Any) -> Iterator[Any]:
+    """The browser, without any page open."""
+    chromium.problems.clear()
+    yield chromium
+    chromium.leave()

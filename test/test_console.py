@@ -12,12 +12,7 @@ from ament_index_python.packages import get_package_share_directory
 from wrist_control.graph.processes import executable_file
 from wrist_interfaces.msg import WristStatus
 
-from .conftest import MARK
-from .console_stage import Browser, Console, needs_browser, press
-
-playwright_api = pytest.importorskip(
-    'playwright.sync_api', reason='the page is not tried: playwright is not installed'
-)
+from .console_stage import Console, needs_browser, press
 
 
 @pytest.fixture
@@ -34,20 +29,12 @@ def start(graph, process_environment):
         console.end(signal.SIGKILL)
 
 
-@pytest.fixture(scope='module')
-def chromium():
-    with playwright_api.sync_playwright() as playwright:
-        made = Browser(playwright, MARK)
-        yield made
-        made.close()
-
-
 @pytest.fixture
-def browser(chromium):
-    chromium.problems.clear()
-    yield chromium
-    chromium.leave()
-    assert chromium.problems == []
+def browser(browser):
+    """A browser whose pages must not complain of anything."""
+    yield browser
+    browser.leave()
+    assert browser.problems == []
 
 
 def held_until_moving(console, hold, let_go):

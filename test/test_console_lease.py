@@ -9,12 +9,8 @@ import pytest
 
 from wrist_interfaces.msg import WristStatus
 
-from .conftest import MARK
-from .console_stage import Browser, Console, Forwarder, needs_browser, press
+from .console_stage import Console, Forwarder, needs_browser, press
 
-playwright_api = pytest.importorskip(
-    'playwright.sync_api', reason='the page is not tried: playwright is not installed'
-)
 pytestmark = needs_browser
 
 
@@ -24,21 +20,6 @@ def console(graph, process_environment):
     made.until(WristStatus.IDLE)
     yield made
     made.end()
-
-
-@pytest.fixture(scope='module')
-def chromium():
-    with playwright_api.sync_playwright() as playwright:
-        made = Browser(playwright, MARK)
-        yield made
-        made.close()
-
-
-@pytest.fixture
-def browser(chromium):
-    chromium.problems.clear()
-    yield chromium
-    chromium.leave()
 
 
 @pytest.fixture

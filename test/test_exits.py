@@ -14,6 +14,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
+from .broken_middleware import broken
 from .test_processes import EXECUTABLES
 
 RATE = 0.5
@@ -120,25 +121,7 @@ def test_a_hand_at_rest_does_not_make_a_signal_wait(graph):
     assert time.monotonic() - began < 1.5
 
 
-# What breaks is the middleware: no callback of a node is at fault, so none can be blamed.
-BROKEN = """
-import sys, time
-from wrist_control.nodes import resolver
-from wrist_control.ros import running
-
-class Breaks:
-    def __init__(self, executor):
-        self.executor, self.end = executor, time.monotonic() + 6.0
-    def __getattr__(self, name):
-        return getattr(self.executor, name)
-    def spin_until_future_complete(self, future, timeout_sec):
-        self.executor.spin_until_future_complete(future, max(0.0, self.end - time.monotonic()))
-        raise RuntimeError('the middleware is broken')
-
-make = running.make_executor
-running.make_executor = lambda node: Breaks(make(node))
-resolver.main('three_gimbal')
-"""
+BROKEN = broken(6.0, "from wrist_control.nodes import resolver\nresolver.main('three_gimbal')")
 
 
 def test_an_error_of_the_middleware_itself_ramps_a_moving_hand_to_a_zero(graph):

@@ -13,6 +13,7 @@ from wrist_control.nodes.joint_simulator import JointSimulator
 from wrist_control.nodes.resolver import Resolver
 from wrist_interfaces.msg import WristStatus
 
+from .broken_middleware import broken
 from .typing_hand import Typist
 
 KEYBOARD = [str(executable_file('keyboard'))]
@@ -211,24 +212,7 @@ def test_an_error_puts_the_terminal_back_and_is_told_afterwards(desk):
     assert 'Traceback' in after
 
 
-BROKEN = """
-import time
-from wrist_control.nodes import keyboard
-from wrist_control.ros import running
-
-class Breaks:
-    def __init__(self, executor):
-        self.executor, self.end = executor, time.monotonic() + 2.0
-    def __getattr__(self, name):
-        return getattr(self.executor, name)
-    def spin_until_future_complete(self, future, timeout_sec):
-        self.executor.spin_until_future_complete(future, max(0.0, self.end - time.monotonic()))
-        raise RuntimeError('the middleware is broken')
-
-make = running.make_executor
-running.make_executor = lambda node: Breaks(make(node))
-keyboard.main()
-"""
+BROKEN = broken(2.0, 'from wrist_control.nodes import keyboard\nkeyboard.main()')
 
 
 def test_a_terminal_that_closes_ends_it(desk):

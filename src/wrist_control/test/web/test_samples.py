@@ -59,7 +59,7 @@ def test_it_begins_anew():
 def test_a_row_has_a_value_for_every_line_of_every_strip_in_their_units(name):
     wrist = make_wrist(name).with_limits(rates=0.25)
     n = len(wrist.joints)
-    sample = Sample(1, 7.0, (0.1, 0.2, 0.3), (0.4, 0.5, 0.6), 0.7, 0.8, (0.25,) * n)
+    sample = Sample(7.0, (0.1, 0.2, 0.3), (0.4, 0.5, 0.6), 0.7, 0.8, (0.25,) * n)
     shown = strips(wrist)
     time, *values = row(wrist, sample)
     assert time == 7.0

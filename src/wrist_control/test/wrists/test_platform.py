@@ -6,7 +6,8 @@ import pytest
 
 from wrist_control import InvalidValueError, make_wrist
 from wrist_control.rotations import Pose, turned
-from wrist_control.wrists.platform import anchors, turn_of
+from wrist_control.stewart.geometry import anchors
+from wrist_control.wrists.platform import turn_of
 
 PLATFORMS = {name: make_wrist(name) for name in ('stewart', 'rotary_stewart')}
 every_platform = pytest.mark.parametrize('wrist', PLATFORMS.values(), ids=PLATFORMS)

@@ -13,20 +13,15 @@ from wrist_control.rotations import Pose, rates_between, turned
 from wrist_control.stewart.forward_kinematics import Status
 from wrist_control.wrists.platform import EDGE, Assembly
 
+from .near_home import poses_near
+
 WRIST = make_wrist('rotary_stewart')
 HOME = WRIST.home.pose
 # [ReachyMini]: limits of the six joints, rad.
 LOWER = np.radians([-48.0, -80.0, -48.0, -80.0, -70.0, -80.0])
 UPPER = np.radians([80.0, 70.0, 80.0, 48.0, 80.0, 48.0])
 
-small = st.floats(-0.02, 0.02)
-turns = st.floats(-0.4, 0.4)
-poses = st.builds(
-    lambda x, y, z, p, q, r: Pose(
-        turned(HOME.quaternion, (p, q, r), 1.0), (x, y, HOME.position[2] + z)
-    ),
-    small, small, small, turns, turns, turns,
-)  # fmt: skip
+poses = poses_near(HOME, 0.02)
 twists = st.tuples(*[st.floats(-1.0, 1.0)] * 6)
 
 

@@ -15,18 +15,13 @@ from wrist_control.stewart.forward_kinematics import Status
 from wrist_control.units import INCH
 from wrist_control.wrists.platform import EDGE, Assembly
 
+from .near_home import poses_near
+
 WRIST = make_wrist('stewart')
 HOME = WRIST.home.pose
 DT = 0.01
 
-small = st.floats(-0.06, 0.06)
-turns = st.floats(-0.4, 0.4)
-poses = st.builds(
-    lambda x, y, z, p, q, r: Pose(
-        turned(HOME.quaternion, (p, q, r), 1.0), (x, y, HOME.position[2] + z)
-    ),
-    small, small, small, turns, turns, turns,
-)  # fmt: skip
+poses = poses_near(HOME, 0.06)
 twists = st.tuples(*[st.floats(-1.0, 1.0)] * 6).filter(lambda t: max(map(abs, t)) > 0.05)
 
 

@@ -145,9 +145,8 @@ class Keyboard(GuardedNode):
 
     def _publish(self, rates: Vector) -> None:
         stamp = self.get_clock().now().to_msg()
-        twist = convert.twist_message((0.0, 0.0, 0.0, *rates))
         header = Header(stamp=stamp, frame_id=self._values['frame_id'])
-        self._commands.publish(TwistStamped(header=header, twist=twist))
+        self._commands.publish(convert.command_message(header, rates))
 
     def _on_status(self, message: WristStatus) -> None:
         name = WristState(message.state).name

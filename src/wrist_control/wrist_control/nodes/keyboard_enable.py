@@ -7,6 +7,7 @@ from typing import Any
 from std_srvs.srv import SetBool
 
 from wrist_control.ros.guarded import GuardedNode
+from wrist_control.ros.publishers import publishing
 from wrist_control.ros.shown import SENTENCE, shown
 
 # How long an answer is waited for, s.
@@ -41,10 +42,7 @@ class Enabling:
             now: s, on a clock that never jumps.
         """
         self.forget()
-        resolvers = sorted(
-            f'{one.node_namespace.rstrip("/")}/{one.node_name}'
-            for one in self._node.get_publishers_info_by_topic(self._topic)
-        )
+        resolvers = sorted(publishing(self._node, self._topic))
         if len(resolvers) != 1:
             found = shown(', '.join(resolvers)) or 'nobody'
             self.said = f'Enables nothing: {self._topic} comes from {found}, not one resolver.'

@@ -190,8 +190,7 @@ class Operator(GuardedNode):
         self, now: Time, rates: Sequence[float], travel: Sequence[float] = ZERO_RATES
     ) -> None:
         header = Header(stamp=now.to_msg(), frame_id=self._values['frame_id'])
-        twist = convert.twist_message((*travel, *rates))
-        self._publisher.publish(TwistStamped(header=header, twist=twist))
+        self._publisher.publish(convert.command_message(header, rates, travel))
 
     def _rates(self, now: float) -> Sequence[float]:
         if self._joystick is not None:

@@ -87,7 +87,7 @@ class Resolver(GuardedNode):
         wrist = limited(own, self._values)
         self._supervisor = WitnessedSupervisor(wrist, settings(wrist, self._values))
         self._outputs = Outputs(self, wrist, self._values)
-        self._journal = Journal(self, wrist_name, self._values, self._supervisor)
+        self._journal = Journal(self, self._values, self._supervisor)
         self._result = self._supervisor.tick(
             stamp_time=0.0, receipt_time=0.0, withheld='Starting: no step was made yet.'
         )

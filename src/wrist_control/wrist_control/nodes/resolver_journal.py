@@ -12,6 +12,7 @@ from rclpy.node import Node
 from std_msgs.msg import Header
 
 from wrist_control.resolving.witness import Before, Heard, Kind, WitnessedSupervisor
+from wrist_control.ros.parameters import plain
 from wrist_control.ros.qos import OUTPUT
 from wrist_control.wrists.wrist import Configuration
 from wrist_interfaces.msg import HeardInput, StepInputs
@@ -26,7 +27,6 @@ class Journal:
     def __init__(
         self,
         node: Node,
-        wrist_name: str,
         values: Mapping[str, Any],
         supervisor: WitnessedSupervisor,
     ) -> None:
@@ -34,12 +34,10 @@ class Journal:
 
         Args:
             node: The resolver.
-            wrist_name: Which wrist it has.
-            values: Its parameters, as they are at any time.
+            values: Its parameters, as they are at any time; which wrist it has is among them.
             supervisor: Whose steps are told.
         """
-        self._wrist_name, self._values = wrist_name, values
-        self._supervisor = supervisor
+        self._values, self._supervisor = values, supervisor
         self._steps_between = max(1, round(AGAIN * values['rate']))
         self._steps_left = 0
         self._publisher = node.create_publisher(StepInputs, 'step_inputs', OUTPUT)
@@ -78,13 +76,7 @@ class Journal:
         return heard
 
     def _parameters(self) -> str:
-        values = {name: _plain(value) for name, value in self._values.items()}
-        return json.dumps({**values, 'wrist': self._wrist_name})
-
-
-def _plain(value: Any) -> Any:
-    is_list = hasattr(value, '__len__') and not isinstance(value, str)
-    return list(value) if is_list else value
+        return json.dumps({name: plain(value) for name, value in self._values.items()})
 
 
 def _of_heard(heard: Heard) -> HeardInput:

@@ -40,13 +40,8 @@ class Lease(Generic[Asked]):
     and taken anew. All times are s on one clock that never jumps.
     """
 
-    def __init__(self, lasts: float = LASTS) -> None:
-        """Begin with nobody holding.
-
-        Args:
-            lasts: How long after a renewal the stick counts as held, s.
-        """
-        self._lasts = lasts
+    def __init__(self) -> None:
+        """Begin with nobody holding."""
         self._held: Renewal[Asked] | None = None
         self._until = 0.0
         self._ended: dict[str, int] = {}
@@ -68,7 +63,7 @@ class Lease(Generic[Asked]):
             self.release(renewal.holder)
             self._ended[renewal.holder] = renewal.grip
             return 'That came too late to count: let go, and take the stick anew.'
-        self._held, self._until = renewal, min(now + self._lasts, renewal.beat + OLDEST)
+        self._held, self._until = renewal, min(now + LASTS, renewal.beat + OLDEST)
         self._ended[renewal.holder] = renewal.grip - 1  # whatever came before it
         return ''
 

@@ -6,7 +6,7 @@ import math
 
 from wrist_control.physics.linkage import ORIGIN, Linkage, X, Y, Z
 from wrist_control.physics.mechanism import Mechanism, Settings
-from wrist_control.rotations import IDENTITY, Vector, quaternion_of
+from wrist_control.rotations import IDENTITY, Vector, between, quaternion_of
 from wrist_control.wrists.body import turn_of_z
 from wrist_control.wrists.horn import Horn
 from wrist_control.wrists.rotary_stewart import RotaryStewart
@@ -30,7 +30,7 @@ def rotary_stewart(wrist: RotaryStewart, settings: Settings) -> Mechanism:
         turned = (math.cos(0.5 * drawn), math.sin(0.5 * drawn), 0.0, 0.0)
         arm = linkage.link(servo, f'{name} horn', ORIGIN, turned)
         linkage.hinge(arm, name, Z, driven=True, home=drawn)
-        ring = linkage.link(hand, f'{name} ring', head, turn_of_z(_between(top, tip)))
+        ring = linkage.link(hand, f'{name} ring', head, turn_of_z(between(top, tip)))
         linkage.hinge(ring, f'{name} across', X)
         rod = linkage.link(ring, f'{name} rod', ORIGIN, IDENTITY)
         linkage.hinge(rod, f'{name} aside', Y)
@@ -45,13 +45,9 @@ def _tip(horn: Horn, angle: float) -> Vector:
     return (x + u * ax + v * bx, y + u * ay + v * by, z + u * az + v * bz)
 
 
-def _between(one: Vector, other: Vector) -> Vector:
-    return (other[0] - one[0], other[1] - one[1], other[2] - one[2])
-
-
 def _angle(horn: Horn, top: Vector, rod: float) -> float:
     """Return the angle nearest to zero at which a rod reaches from the tip to a point, rad."""
-    across = _between(horn.centre, top)
+    across = between(horn.centre, top)
     u, v = (sum(a * b for a, b in zip(across, way, strict=True)) for way in horn[2:4])
     # The tip is nearest to the point where the horn points at it, and furthest where it points
     # away: on the way from zero to one of them the rod fits.

@@ -6,7 +6,15 @@ import array
 from collections.abc import Sequence
 
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Point, PoseStamped, Quaternion, Transform, Twist, Vector3
+from geometry_msgs.msg import (
+    Point,
+    PoseStamped,
+    Quaternion,
+    Transform,
+    Twist,
+    TwistStamped,
+    Vector3,
+)
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
@@ -43,6 +51,13 @@ def twist_message(values: Sequence[float]) -> Twist:
     """Return a Twist of (vx, vy, vz, p, q, r)."""
     vx, vy, vz, p, q, r = values
     return Twist(linear=Vector3(x=vx, y=vy, z=vz), angular=Vector3(x=p, y=q, z=r))
+
+
+def command_message(
+    header: Header, rates: Sequence[float], travel: Sequence[float] = (0.0, 0.0, 0.0)
+) -> TwistStamped:
+    """Return a command of p, q, r, rad/s, and (vx, vy, vz), m/s."""
+    return TwistStamped(header=header, twist=twist_message((*travel, *rates)))
 
 
 def joint_message(

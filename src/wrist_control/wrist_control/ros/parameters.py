@@ -196,6 +196,11 @@ class ParameterNode(Node):
         return f'{shown(name)} is no parameter of {self.get_name()} and changes nothing; {meant}'
 
 
+def plain(value: Any) -> Any:
+    """Return the value of a parameter; an array as a list."""
+    return list(value) if hasattr(value, '__len__') and not isinstance(value, str) else value
+
+
 def checked(spec: Spec, value: object) -> Any:
     """Return a value in the parameter's own type.
 

@@ -32,12 +32,17 @@ class Publishers:
         return names
 
     def _ask(self, topic: str) -> str:
-        found = [
-            f'{publisher.node_namespace.rstrip("/")}/{publisher.node_name}'.lstrip('/')
-            for publisher in self._node.get_publishers_info_by_topic(topic)
-        ]
+        found = [name.lstrip('/') for name in publishing(self._node, topic)]
         counted = [
             name if found.count(name) == 1 else f'{found.count(name)} publishers of {name}'
             for name in sorted(set(found))
         ]
         return ' and '.join(counted) or 'somebody who has left'
+
+
+def publishing(node: Node, topic: str) -> list[str]:
+    """Return the whole name of the node of each publisher of a topic, as a node sees them now."""
+    return [
+        f'{one.node_namespace.rstrip("/")}/{one.node_name}'
+        for one in node.get_publishers_info_by_topic(topic)
+    ]

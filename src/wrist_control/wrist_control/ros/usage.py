@@ -13,7 +13,7 @@ from pathlib import Path
 import rclpy
 
 from wrist_control.errors import WristError
-from wrist_control.ros.parameters import OF_RCLPY, ParameterNode
+from wrist_control.ros.parameters import OF_RCLPY, ParameterNode, plain
 
 FLAGS = ('-h', '--help')
 WIDTH = 99
@@ -79,7 +79,7 @@ def _topics(found: Iterable[tuple[str, list[str]]]) -> Iterator[str]:
 
 def _parameter(node: ParameterNode, name: str) -> Iterator[str]:
     value, descriptor = node.get_parameter(name).value, node.describe_parameter(name)
-    shown = list(value) if hasattr(value, '__len__') and not isinstance(value, str) else value
+    shown = plain(value)
     yield f'  {name}{"" if descriptor.read_only else " *"} = {shown}'
     text = f'{descriptor.description}; {descriptor.additional_constraints}.'
     yield textwrap.fill(text, WIDTH, initial_indent=' ' * 6, subsequent_indent=' ' * 6)

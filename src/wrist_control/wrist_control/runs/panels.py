@@ -88,14 +88,14 @@ def joint_rates(series: Series) -> str:
     with matplotlib.rc_context(STYLE):
         figure, (axes,) = _figure(1, 2.2)
         for column, joint in enumerate(series.resolver.wrist.joints):
-            rates, unit = series.joint_rates[:, column], 'of the limit'
+            rates = series.joint_rates[:, column]
             if math.isfinite(joint.rate_limit):
                 rates = 100.0 * rates / joint.rate_limit
             name = GREEK.get(joint.name, joint.name)
             _line(axes, series, rates, LINES[column % len(LINES)], name, _width(column))
         for end in (-100.0, 100.0):
             axes.axhline(end, color=MUTED, linewidth=0.8, linestyle=':')
-        axes.set_ylabel(f'% {unit}')
+        axes.set_ylabel('% of the limit')
         _legend(axes)
         return _svg(figure, 'joints')
 

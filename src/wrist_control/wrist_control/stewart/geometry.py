@@ -15,6 +15,8 @@ from wrist_control.errors import InvalidValueError
 from wrist_control.rotations import Pose, Vector, direction_cosines
 
 Anchors = tuple[Vector, Vector, Vector, Vector, Vector, Vector]
+# Points as they are given, m: shape (n, 3), or the same numbers in a row.
+Points = Sequence[Sequence[float]] | Sequence[float]
 # A leg's part in holding the platform: its unit direction and moment, in platform axes.
 Line = tuple[float, float, float, float, float, float]
 # Rounding of coordinates turns a leg of this share of the platform's size by some 1e-9 rad: ten
@@ -38,7 +40,12 @@ def ring(radius: float, angle: float) -> Anchors:
     return (a, b, c, d, e, f)
 
 
-def checked_anchors(name: str, given: Sequence[Sequence[float]] | Sequence[float]) -> Anchors:
+def anchors(name: str, given: Points | None, radius: float, angle: float) -> Anchors:
+    """Return the points that are given (`checked_anchors`), or those of a ring."""
+    return ring(radius, angle) if given is None else checked_anchors(name, given)
+
+
+def checked_anchors(name: str, given: Points) -> Anchors:
     """Return six anchor points as tuples.
 
     Args:

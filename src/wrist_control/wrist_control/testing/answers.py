@@ -37,7 +37,8 @@ def jacobian_is_the_finite_difference_of_forward(wrist: Wrist, random: Random) -
         jacobian = wrist.jacobian(positions)
         columns = [_difference(wrist, positions, joint) for joint in range(len(positions))]
         # Near lock the hand's way bends, and what was rounded grows, as the square of it.
-        scale = (1.0 + float(np.abs(jacobian).max())) ** 2
+        largest = float(np.abs(jacobian).max())
+        scale = max(1.0 + largest, largest**2)
         what = f'jacobian at {tuple(positions)}'
         require_close(jacobian, np.array(columns).T, 1e-7 * scale, what)
 

@@ -16,6 +16,7 @@ from wrist_control.operating.maneuvers import MANEUVERS
 from wrist_control.resolving.report import WristState
 from wrist_control.web.driver import Asked
 from wrist_control.web.elements import Stick, Strips
+from wrist_control.web.samples import Sample
 from wrist_control.web.scene import WristScene
 from wrist_control.web.strips import row, strips
 from wrist_control.web.watched import WatchedWrist
@@ -65,7 +66,7 @@ class _Page:
         self._holder = client.id
         self._said = [wrist.said[0] for wrist in console.wrists]
         self._shown: list[Wrist | None] = [None, None]
-        self._pushed = 0
+        self._pushed: Sample | None = None
         self._refused = (0.0, '')
         self._speed = math.degrees(console.values['speed'])
         self._draws = PLAIN not in client.request.query_params
@@ -250,11 +251,12 @@ class _Page:
 
     def _push(self) -> None:
         first = self._console.wrists[0]
-        fresh = [one for one in tuple(first.samples) if one.number > self._pushed]
-        if not fresh or first.wrist is None or self._strips is None:
+        newest = first.newest
+        if newest is None or newest is self._pushed or first.wrist is None:
             return
-        self._pushed = fresh[-1].number
-        self._strips.push([row(first.wrist, fresh[-1])])
+        self._pushed = newest
+        if self._strips is not None:
+            self._strips.push([row(first.wrist, newest)])
 
 
 def _rank(watched: WatchedWrist) -> tuple[float, float]:

@@ -13,7 +13,6 @@ class Sample(NamedTuple):
     """One step of a resolver, as its status and its joint command say.
 
     Attributes:
-        number: Counts up by one from sample to sample.
         time: When it was received, s, on a clock that never jumps.
         commanded: p, q, r that were asked for, rad/s.
         achieved: p, q, r that the hand made, rad/s.
@@ -22,7 +21,6 @@ class Sample(NamedTuple):
         joint_rates: rad/s or m/s, in joint order.
     """
 
-    number: int
     time: float
     commanded: Vector
     achieved: Vector

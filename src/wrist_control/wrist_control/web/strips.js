@@ -6,7 +6,7 @@ const round = (value) => Math.round(1e4 * value) / 1e4;
 
 export default {
   template: "<div></div>",
-  props: { strips: Array, seconds: Number, colours: Object },
+  props: { strips: Array, seconds: Number },
   mounted() {
     this.chart = echarts.init(this.$el, null, { renderer: "canvas" });
     this.observer = new ResizeObserver(() => this.lay());

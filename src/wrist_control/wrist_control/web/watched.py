@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections import deque
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
@@ -23,6 +22,8 @@ from wrist_control.nodes.resolver_settings import completed, limited, mechanism
 from wrist_control.resolving.joint_order import finite_in_joint_order
 from wrist_control.ros import convert
 from wrist_control.ros.guarded import GuardedNode
+from wrist_control.ros.parameters import plain
+from wrist_control.ros.publishers import publishing
 from wrist_control.ros.qos import EVERY_RELIABLE, NEWEST, OUTPUT
 from wrist_control.rotations import Vector
 from wrist_control.web.samples import OffPath, Sample
@@ -34,8 +35,6 @@ NOT_THERE = 'No resolver listens here yet: start one, or wait for it, and try ag
 SILENCE = 1.0
 # How often the resolver is looked for, and asked again for its limits, s.
 LOOKS_EVERY, ASKS_EVERY = 0.25, 2.0
-# s of samples that are kept, at the fastest rate that a resolver usually has.
-KEPT = 2000
 
 
 class WatchedWrist:
@@ -52,7 +51,7 @@ class WatchedWrist:
         status: What its resolver said last; None while it is silent.
         positions: Where the joints really are, in joint order; None before they were heard.
         off_path: How far the hand is off the commanded path.
-        samples: What was heard of late.
+        newest: What was heard last; None before.
         said: What a service answered last, and a number that counts the answers.
     """
 
@@ -73,7 +72,6 @@ class WatchedWrist:
         node.create_subscription(JointState, f'{prefix}joint_states', self._on_states, NEWEST)
         node.create_subscription(JointState, f'{prefix}joint_command', self._on_command, NEWEST)
         self._clients: dict[str, Client] = {}
-        self._count = 0
         self.said: tuple[int, bool, str] = (0, True, '')
         self._share: float | None = None
         self.lose()
@@ -96,13 +94,12 @@ class WatchedWrist:
         self.positions: tuple[float, ...] | None = None
         self._rates: tuple[float, ...] = ()
         self.off_path: OffPath | None = None
-        self.samples: deque[Sample] = deque(maxlen=KEPT)
+        self.newest: Sample | None = None
 
     def command(self, rates: Vector) -> None:
         """Ask for hand rates, rad/s."""
         header = Header(stamp=self._node.get_clock().now().to_msg())
-        twist = convert.twist_message((0.0, 0.0, 0.0, *rates))
-        self._commands.publish(TwistStamped(header=header, twist=twist))
+        self._commands.publish(convert.command_message(header, rates))
 
     def stop(self) -> None:
         """Ask for a stop, whoever else asks for motion."""
@@ -139,8 +136,7 @@ class WatchedWrist:
         now = time.monotonic()
         if self.status is not None and now - self._status_heard > SILENCE:
             self.lose()
-        found = self._node.get_publishers_info_by_topic(f'{self.prefix}wrist_status')
-        names = [f'{one.node_namespace.rstrip("/")}/{one.node_name}' for one in found]
+        names = publishing(self._node, f'{self.prefix}wrist_status')
         if self._resolver not in names:
             self.lose()
             self._resolver = names[0] if names else ''
@@ -193,7 +189,7 @@ class WatchedWrist:
 
     def _on_values(self, names: list[str], answer: GetParameters.Response) -> None:
         found = {
-            name: _plain(parameter_value_to_python(value))
+            name: plain(parameter_value_to_python(value))
             for name, value in zip(names, answer.values, strict=True)
         }
         if found == self._values:
@@ -224,13 +220,8 @@ class WatchedWrist:
         if before is not None and message.time_lost < before.time_lost:
             self.off_path.clear()
         self.off_path.follow(commanded, achieved, message.scale_factor, self._dt)
-        self._count += 1
         rates = self._rates or (0.0,) * len(self.wrist.joints)
-        self.samples.append(
-            Sample(
-                self._count, now, commanded, achieved, message.scale_factor, message.margin, rates
-            )
-        )
+        self.newest = Sample(now, commanded, achieved, message.scale_factor, message.margin, rates)
 
     @property
     def _dt(self) -> float:
@@ -253,8 +244,3 @@ class WatchedWrist:
             return finite_in_joint_order(joints, plain, values)
         except RefusedError:
             return None
-
-
-def _plain(value: Any) -> Any:
-    """Return a parameter's value; an array as a list."""
-    return list(value) if hasattr(value, '__len__') and not isinstance(value, str) else value

@@ -11,23 +11,24 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
 from wrist_control.errors import InvalidValueError, UnreachableError
-from wrist_control.rotations import Pose, Vector, to_forearm, turned
+from wrist_control.rotations import IDENTITY, Pose, Vector, to_forearm, turned
 from wrist_control.stewart.forward_kinematics import ForwardKinematics, Status
 from wrist_control.stewart.geometry import (
     SHORTEST,
     Anchors,
     Line,
+    Points,
+    anchors,
     checked_anchors,
     hadamard_ratio,
     legs,
     length,
     line,
-    ring,
 )
 from wrist_control.stewart.solution import Solution
 from wrist_control.wrists import body
@@ -42,8 +43,6 @@ EDGE = 0.01
 # the hand would stop ten times as hard, and over ten times as much it would brake harder too, all
 # at once, since the braking begins where the margin falls fastest.
 HORIZON = 0.5
-
-Points = Sequence[Sequence[float]] | Sequence[float]
 
 
 @dataclass(frozen=True)
@@ -110,15 +109,22 @@ class Platform(Wrist):
                 f'others, or a home_height where the margin is above {EDGE:g}.'
             )
 
-    @property
-    @abstractmethod
+    if TYPE_CHECKING:  # dimensions of every platform, each in the order of its own
+        platform_radius: float
+        platform_angle: float
+        platform_anchors: Points | None
+        home_height: float
+
+    @cached_property
     def platform(self) -> Anchors:
         """The platform's anchors p, platform axes, m."""
+        given = self.platform_anchors
+        return anchors('platform_anchors', given, self.platform_radius, self.platform_angle)
 
-    @property
-    @abstractmethod
+    @cached_property
     def home_pose(self) -> Pose:
-        """Where the platform is at home."""
+        """Where the platform is at home: level and centred at the home height."""
+        return Pose(IDENTITY, (0.0, 0.0, self.home_height))
 
     @cached_property
     def home(self) -> Assembly:  # type: ignore[override]
@@ -292,8 +298,3 @@ def turn_of(twist: Sequence[float] | np.ndarray) -> Vector:
     x, y, z = (float(part) for part in twist[3:])
     norm = math.sqrt(x * x + y * y + z * z)
     return (x / norm, y / norm, z / norm) if norm else (0.0, 0.0, 1.0)
-
-
-def anchors(name: str, given: Points | None, radius: float, angle: float) -> Anchors:
-    """Return the points that are given, or those of a ring (`geometry.ring`)."""
-    return ring(radius, angle) if given is None else checked_anchors(name, given)

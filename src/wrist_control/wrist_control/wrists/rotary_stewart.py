@@ -17,22 +17,15 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from wrist_control.errors import UnreachableError
-from wrist_control.rotations import IDENTITY, Pose, Vector, to_hand
+from wrist_control.rotations import Pose, Vector, to_hand
 from wrist_control.stewart.forward_kinematics import ForwardKinematics
-from wrist_control.stewart.geometry import Anchors, checked_anchors
+from wrist_control.stewart.geometry import Anchors, Points, checked_anchors
 from wrist_control.wrists import body
 from wrist_control.wrists.body import Ball, Body, Pin, Rod
 from wrist_control.wrists.dimension import dimension, point_list
 from wrist_control.wrists.horn import Horn, horn, in_pairs, six
 from wrist_control.wrists.joint import Joint
-from wrist_control.wrists.platform import (
-    Assembly,
-    Platform,
-    Points,
-    Rods,
-    anchors,
-    turn_of,
-)
+from wrist_control.wrists.platform import Assembly, Platform, Rods, turn_of
 from wrist_control.wrists.wrist import Clearance, Rates, soft_edge
 
 # A horn counts as no straighter with its rod than this, as a sine: rounding alone is left of it.
@@ -113,17 +106,6 @@ class RotaryStewart(Platform):
     def reach(self) -> float:
         """How far a servo moves the tip of its horn, m per rad."""
         return self.horn_length
-
-    @cached_property
-    def platform(self) -> Anchors:
-        """The platform's anchors p, platform axes, m."""
-        given = self.platform_anchors
-        return anchors('platform_anchors', given, self.platform_radius, self.platform_angle)
-
-    @cached_property
-    def home_pose(self) -> Pose:
-        """Level and centred at the home height."""
-        return Pose(IDENTITY, (0.0, 0.0, self.home_height))
 
     @cached_property
     def horns(self) -> tuple[Horn, ...]:

@@ -10,22 +10,15 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from wrist_control.rotations import IDENTITY, Pose, Vector
+from wrist_control.rotations import Pose, Vector
 from wrist_control.stewart.forward_kinematics import ForwardKinematics
-from wrist_control.stewart.geometry import Anchors, length
+from wrist_control.stewart.geometry import Anchors, Points, anchors, length
 from wrist_control.units import INCH
 from wrist_control.wrists import body
 from wrist_control.wrists.body import Body, Pin, Rod
 from wrist_control.wrists.dimension import dimension, point_list
 from wrist_control.wrists.joint import Joint
-from wrist_control.wrists.platform import (
-    Assembly,
-    Platform,
-    Points,
-    Rods,
-    anchors,
-    turn_of,
-)
+from wrist_control.wrists.platform import Assembly, Platform, Rods, turn_of
 from wrist_control.wrists.wrist import Clearance, Rates
 
 
@@ -75,12 +68,6 @@ class Stewart(Platform):
     reach: ClassVar[float] = 1.0
 
     @cached_property
-    def platform(self) -> Anchors:
-        """The platform's anchors p, platform axes, m."""
-        given = self.platform_anchors
-        return anchors('platform_anchors', given, self.platform_radius, self.platform_angle)
-
-    @cached_property
     def base(self) -> Anchors:
         """The base's anchors b, base axes, m."""
         return anchors('base_anchors', self.base_anchors, self.base_radius, self.base_angle)
@@ -94,11 +81,6 @@ class Stewart(Platform):
         """Return what takes lengths to poses, and the lengths, m."""
         a, b, c, d, e, f = positions
         return self.forward_kinematics, (a, b, c, d, e, f)
-
-    @cached_property
-    def home_pose(self) -> Pose:
-        """Level and centred at the home height."""
-        return Pose(IDENTITY, (0.0, 0.0, self.home_height))
 
     def inverse(self, pose: Pose, near: Sequence[float]) -> Assembly:
         """Return the leg lengths of a pose; there is one set only, and `near` is not needed.
